@@ -3,7 +3,7 @@ SHELL := /bin/bash
 JOBS ?= $(shell nproc)
 SETUP = tools/setup.sh
 
-.PHONY: run lab page test setup build bench accuracy reproduce format lint asan tsan dev fuzz docs clean help
+.PHONY: run lab page test test-engines setup build bench accuracy reproduce format lint asan tsan dev fuzz docs clean help
 
 run: build            ## build the program and run scenes/steer.toml: a swarm is steered along a route
 	@build/faba run scenes/steer.toml --seed 1 --force --out runs/steer
@@ -16,6 +16,10 @@ test:                 ## build and run all tests
 	@cmake --preset release --log-level=WARNING > /dev/null
 	@cmake --build build -j $(JOBS)
 	@ctest --test-dir build --no-tests=error --output-on-failure -j $(JOBS)
+
+test-engines: build   ## install Slurm, Dask and GNU parallel, and test studies on each, also with workers, nodes and the command killed
+	@$(SETUP) engines
+	@/usr/bin/python3 tests/e2e/study_engines_test.py --program build/faba --kills
 
 setup:                ## install the packages for building (apt-get; with sudo if not root)
 	@$(SETUP)
@@ -79,4 +83,4 @@ clean:                ## delete build/; runs/ is kept
 	@rm -rf build
 
 help:                 ## list the targets
-	@grep -E '^[a-z ]+:.*##' Makefile | sed -E 's/:[^#]*## /\t/' | expand -t 14
+	@grep -E '^[a-z -]+:.*##' Makefile | sed -E 's/:[^#]*## /\t/' | expand -t 14

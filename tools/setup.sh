@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the packages for building Faba on Debian 12, and those for the purposes given as arguments (test, bench, lint,
-# docs, fuzz). Prints the packages that it installs; does nothing if all of them are installed.
+# docs, fuzz, engines). Prints the packages that it installs; does nothing if all of them are installed.
 set -euo pipefail
 
 packages=(g++ cmake ninja-build ccache pkg-config libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev
@@ -18,7 +18,8 @@ for what in "$@"; do
     lint) packages+=(clang-format clang-tidy) ;;
     docs) packages+=(python3 ffmpeg) ;;
     fuzz) packages+=(clang libclang-rt-14-dev) ;;
-    *) echo "setup.sh: \"$what\" is not one of test, bench, lint, docs, fuzz" >&2; exit 2 ;;
+    engines) packages+=(python3 slurmctld slurmd slurm-client munge parallel python3-distributed) ;;
+    *) echo "setup.sh: \"$what\" is not one of test, bench, lint, docs, fuzz, engines" >&2; exit 2 ;;
   esac
 done
 

@@ -15,23 +15,29 @@ namespace faba::cli {
 namespace {
 
 // Options of all verbs that do not change the result: outputs, and how it is computed or printed.
-constexpr std::array<std::string_view, 17> kWithoutEffect{
-    "--help",    "--json",    "--quiet",   "--threads", "--force",     "--out",
-    "--report",  "--picture", "--overlay", "--swarm",   "--per-track", "--stages",
-    "--figures", "--preview", "--shard",   "--merge",   "--check"};
+constexpr std::array<std::string_view, 22> kWithoutEffect{
+    "--help",    "--json",   "--quiet",      "--threads", "--force",     "--out",     "--report", "--picture",
+    "--overlay", "--swarm",  "--per-track",  "--stages",  "--figures",   "--preview", "--shard",  "--merge",
+    "--check",   "--engine", "--engine-set", "--workers", "--scheduler", "--sshlogin"};
 
 }  // namespace
 
-Provenance provenance_of(const Common& c, const std::vector<std::filesystem::path>& inputs) {
-  Provenance p;
-  for (const auto& input : inputs) p.add(input);
+std::vector<std::pair<std::string, std::string>> options_with_effect(const Common& c) {
+  std::vector<std::pair<std::string, std::string>> options;
   for (const CLI::Option* option : c.verb->get_options()) {
     if (option->count() == 0 || option->get_positional()) continue;
     const std::string name = option->get_name();
     if (std::find(kWithoutEffect.begin(), kWithoutEffect.end(), name) != kWithoutEffect.end()) continue;
     const bool flag = option->get_expected_max() == 0;
-    p.options.emplace_back(name, flag ? "" : fmt::format("{}", fmt::join(option->results(), " ")));
+    options.emplace_back(name, flag ? "" : fmt::format("{}", fmt::join(option->results(), " ")));
   }
+  return options;
+}
+
+Provenance provenance_of(const Common& c, const std::vector<std::filesystem::path>& inputs) {
+  Provenance p;
+  for (const auto& input : inputs) p.add(input);
+  p.options = options_with_effect(c);
   return p;
 }
 

@@ -10,6 +10,7 @@ enum class Errc {
   usage = 2,         ///< invalid command line, scenario, coil system or study file
   input = 3,         ///< a picture, video or data file that is missing, unreadable or unsuitable
   device = 4,        ///< camera or coil driver
+  busy = 11,         ///< another process uses the directory; the same command can succeed later
   interrupted = 130  ///< stopped by a signal; the recorded data are kept
 };
 

@@ -40,7 +40,7 @@ bool same_file(int descriptor, const std::filesystem::path& file) {
 }  // namespace
 
 FileLock::FileLock(const std::filesystem::path& file, const std::filesystem::path& shown,
-                   const std::string& text)
+                   const std::string& text, Errc held)
     : file_(file) {
   for (int attempt = 0; attempt < 100; ++attempt) {
     descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
@@ -48,7 +48,7 @@ FileLock::FileLock(const std::filesystem::path& file, const std::filesystem::pat
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       ::close(std::exchange(descriptor_, -1));
       throw Error(
-          Errc::usage, shown.string(),
+          held, shown.string(),
           fmt::format("{} is writing to it; wait until it exits or choose another --out", holder(file_)));
     }
     if (same_file(descriptor_, file_)) break;  // otherwise the holder removed the file in the meantime

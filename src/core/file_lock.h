@@ -2,6 +2,8 @@
 #include <filesystem>
 #include <string>
 
+#include "core/error.h"
+
 namespace faba {
 
 /// A lock file that one process at a time can hold. The system releases the lock when that process ends for
@@ -10,8 +12,10 @@ class FileLock {
  public:
   FileLock() = default;
   /// Creates the file if necessary and writes the process id and, on the next lines, `text`. Throws
-  /// Error(usage, shown) if another process holds it, Error(internal) if it cannot be written.
-  FileLock(const std::filesystem::path& file, const std::filesystem::path& shown, const std::string& text);
+  /// Error(held, shown) if another process holds it, Error(internal) if it cannot be written. On a file
+  /// system without locks it succeeds: it then only marks the directory.
+  FileLock(const std::filesystem::path& file, const std::filesystem::path& shown, const std::string& text,
+           Errc held = Errc::usage);
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&& other) noexcept;
   ~FileLock();

@@ -2,7 +2,9 @@
 // invalid input.
 #include <doctest/doctest.h>
 
+#include <set>
 #include <string>
+#include <vector>
 
 #include "tests/e2e/program.h"
 
@@ -35,6 +37,12 @@ void refused(const std::string& study, const std::string& words) {
   CHECK(one_clear_line(c.err));
   CHECK_MESSAGE(c.err.find(words) != std::string::npos, c.err);
   CHECK_FALSE(std::filesystem::exists(f.path / "out"));
+}
+
+std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& e : std::filesystem::directory_iterator(folder)) files.push_back(e.path());
+  return files;
 }
 
 }  // namespace
@@ -98,9 +106,14 @@ TEST_CASE("a study is resumed and not overwritten") {
   const TestFolder f;
   write_study(f);
   REQUIRE(faba_in(f.path, "compare-controllers study.toml --shard 1/2 --out out").exit == 0);
-  const std::string half = read_file(f.path / "out/results.jsonl");
+  REQUIRE(files_in(f.path / "out/results").size() == 1);
+  const std::string half = read_file(files_in(f.path / "out/results").front());
   REQUIRE(faba_in(f.path, "compare-controllers study.toml --out out").exit == 0);
-  CHECK(read_file(f.path / "out/results.jsonl").starts_with(half));
+  std::set<std::string> all;
+  for (const auto& file : files_in(f.path / "out/results")) all.insert(read_file(file));
+  CHECK(all.size() == 2);
+  CHECK(all.contains(half));
+  for (const std::string& part : all) CHECK(part.size() == half.size());  // the other half of the trials
   const Called again = faba_in(f.path, "compare-controllers study.toml --out out");
   CHECK(again.exit == 0);
   CHECK(again.out.find("complete") != std::string::npos);

@@ -15,7 +15,9 @@ constexpr std::array kMessages = {
     "is a study for `faba compare-controllers`",
     "is a study for `faba moment`"};
 
-std::optional<FileKind> kind_of(const Node& root) {
+}  // namespace
+
+std::optional<FileKind> file_kind(const Node& root) {
   const auto is_list = [&](const char* key) { return root.has(key) && root.child(key).json->is_array(); };
   if (is_list("swarm")) return FileKind::scenario;
   if (is_list("coil")) return FileKind::coil_system;
@@ -28,10 +30,8 @@ std::optional<FileKind> kind_of(const Node& root) {
   return {};
 }
 
-}  // namespace
-
 void require_kind(const Node& root, FileKind wanted) {
-  const std::optional<FileKind> kind = kind_of(root);
+  const std::optional<FileKind> kind = file_kind(root);
   if (!kind || *kind == wanted) return;
   // The keys that distinguish a study for identification or of moments may be missing; its reader asks for
   // them.

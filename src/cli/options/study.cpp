@@ -47,6 +47,40 @@ void print_complete(const std::filesystem::path& out, const nlohmann::ordered_js
   fmt::print("{}\n", all.dump());
 }
 
+// Opens the directory of the study and imports the results of others.
+StudyDirectory open_study(const StudyOptions& v, const StudyJob& job) {
+  const std::filesystem::path out = out_of(v);
+  const std::string again = fmt::format("{} {} {} --out {}", shell_word(program()), job.source().verb,
+                                        shell_word(v.study.string()), shell_word(out.string()));
+  StudyDirectory dir(out, job.hash(), again, v.force, job.source());
+  dir.merge(v.merge);
+  return dir;
+}
+
+// Whether the directory has the complete study; if so, reports it or, with --json, prints its NAME.json
+// again.
+bool report_if_complete(const StudyOptions& v, const StudyJob& job, const Common& c) {
+  const std::filesystem::path out = out_of(v);
+  if (v.force || !holds_complete_study(out, job.hash())) return false;
+  check_merge(v.merge, job.hash());  // a wrong name is an error even if there is nothing to import
+  if (c.json)
+    print_complete(out, nlohmann::ordered_json::parse(read_file(out / (job.report() + ".json"))));
+  else if (!c.quiet)
+    fmt::print("{}: this study is already complete; --force writes its pages again\n", out.string());
+  return true;
+}
+
+void report_partial(const StudyOptions& v, const Common& c, const std::filesystem::path& dir) {
+  if (c.json)
+    fmt::print("{}\n", nlohmann::ordered_json{{"out", dir.string()}, {"complete", false}}.dump());
+  else if (!c.quiet)
+    fmt::print(
+        "part {} of this round is complete; its results are in {}. When the other parts are complete, run "
+        "the "
+        "command again with --merge and their directories, until it reports that the study is complete\n",
+        v.shard, dir.string());
+}
+
 }  // namespace
 
 void add_study_options(CLI::App* v, StudyOptions& o) {
@@ -63,62 +97,55 @@ void add_study_options(CLI::App* v, StudyOptions& o) {
       ->check(integers(1, 1024));
   v->add_flag("--force", o.force,
               "Replace another study in the directory, or write the pages of a complete study again");
+  add_engine_options(v, o.engine);
 }
 
-StudyDirectory open_study(const StudyOptions& v, const std::string& verb, const std::string& study_hash) {
-  const std::filesystem::path out = out_of(v);
-  const std::string again = fmt::format("{} {} {} --out {}", shell_word(program()), verb,
-                                        shell_word(v.study.string()), shell_word(out.string()));
-  StudyDirectory dir(out, study_hash, again, v.force);
-  dir.merge(v.merge);
-  return dir;
-}
-
-bool report_if_complete(const StudyOptions& v, const std::string& name, const std::string& study_hash,
-                        const Common& c) {
-  const std::filesystem::path out = out_of(v);
-  if (v.force || !holds_complete_study(out, study_hash)) return false;
-  check_merge(v.merge, study_hash);  // a wrong name is an error even if there is nothing to import
-  if (c.json)
-    print_complete(out, nlohmann::ordered_json::parse(read_file(out / (name + ".json"))));
-  else if (!c.quiet)
-    fmt::print("{}: this study is already complete; --force writes its pages again\n", out.string());
-  return true;
-}
-
-SweepOptions sweep_options(const StudyOptions& v, Progress& bar) {
+SweepOptions sweep_options(const StudyOptions& v) {
   SweepOptions o;
   o.threads = v.threads;
   o.shard = shard_of(v.shard);
-  o.progress = [&bar](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
   o.stop = [&stop = stop_requested()] { return stop.load(); };
+  if (!v.engine.engine.empty() && (!v.shard.empty() || v.threads > 0))
+    throw Error(Errc::usage, "--engine",
+                "cannot be combined with --shard or --threads; give the number of workers by --workers");
   return o;
 }
 
+std::optional<std::filesystem::path> run_study(StudyJob& job, const StudyOptions& v, SweepOptions options,
+                                               const Common& c) {
+  if (report_if_complete(v, job, c)) return {};
+  StudyDirectory dir = open_study(v, job);
+  options.measured = dir.path() / study_files::kMeasured;
+  if (!job.run(dir, std::move(options), c)) return dir.path();
+  job.print(dir, c);
+  return {};
+}
+
+int run_study_verb(StudyJob& job, const StudyOptions& v, const SweepOptions& options, const Common& c) {
+  if (!v.shard.empty() && !c.quiet)
+    print_stderr(
+        "faba: note: --shard and --merge will be removed in the next version; use --engine, or faba "
+        "study plan, work and collect");
+  SweepOptions all = options;
+  EngineStart engine(v.engine, out_of(v), job.hash(), c);
+  if (!v.engine.engine.empty())
+    all.elsewhere = [&](const Round& round, ResultStore& store) { return engine(round, store); };
+  if (const auto dir = run_study(job, v, std::move(all), c)) report_partial(v, c, *dir);
+  return 0;
+}
+
 void finish(StudyDirectory& dir, const std::string& name, nlohmann::ordered_json j, const Provenance& p,
-            const StudyOptions& v) {
+            unsigned threads) {
   add_provenance(j, p);
   write_file(dir.path() / (name + ".json"), j.dump(2) + "\n");
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   dir.complete({{"date", fmt::format("{:%FT%TZ}", fmt::gmtime(now))},
-                {"threads", v.threads > 0 ? v.threads : std::thread::hardware_concurrency()},
+                {"threads", threads > 0 ? threads : std::thread::hardware_concurrency()},
                 {"out", dir.path().string()}});
 }
 
 void print_study(const StudyDirectory& dir, const std::string& name) {
   print_complete(dir.path(), nlohmann::ordered_json::parse(read_file(dir.path() / (name + ".json"))));
-}
-
-int report_partial(const StudyOptions& v, const Common& c, const StudyDirectory& dir) {
-  if (c.json)
-    fmt::print("{}\n", nlohmann::ordered_json{{"out", dir.path().string()}, {"complete", false}}.dump());
-  else if (!c.quiet)
-    fmt::print(
-        "part {} of this round is complete; its results are in {}. When the other parts are complete, run "
-        "the "
-        "command again with --merge and their directories, until it reports that the study is complete\n",
-        v.shard, dir.path().string());
-  return 0;
 }
 
 }  // namespace faba::cli

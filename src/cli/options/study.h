@@ -1,10 +1,12 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/command_line.h"
-#include "cli/progress.h"
+#include "cli/options/engine.h"
+#include "cli/study_job.h"
 #include "study/data/provenance.h"
 #include "study/sweep/study_directory.h"
 #include "study/sweep/sweep.h"
@@ -20,32 +22,29 @@ struct StudyOptions {
   std::vector<std::filesystem::path> merge;
   unsigned threads = 0;
   bool force = false;
+  EngineOptions engine = {};
 };
 
-/// Adds the study file, --out, --shard, --merge, --threads and --force.
+/// Adds the study file, --out, --shard, --merge, --threads, --force, and the options of engines.
 void add_study_options(CLI::App* v, StudyOptions& o);
 
-/// Opens the directory of the study: --out, or runs/NAME. `verb` is its name, for the command that resumes
-/// the study.
-StudyDirectory open_study(const StudyOptions& v, const std::string& verb, const std::string& study_hash);
+/// Threads, shard and stop of a study. Throws Error(usage, "--shard").
+SweepOptions sweep_options(const StudyOptions& v);
 
-/// Whether the directory has the complete study; if so, reports it or, with --json, prints its NAME.json
-/// again.
-bool report_if_complete(const StudyOptions& v, const std::string& name, const std::string& study_hash,
-                        const Common& c);
-
-/// Threads, shard, progress and stop of a study. `bar` must outlive the sweep. Throws Error(usage,
-/// "--shard").
-SweepOptions sweep_options(const StudyOptions& v, Progress& bar);
+/// Runs a study in its directory, --out or runs/NAME, up to the end: the only function that does so. Prints
+/// the result, also of a study that is complete already. Returns the directory when results are missing that
+/// `options` do not compute, empty when the study is complete.
+std::optional<std::filesystem::path> run_study(StudyJob& job, const StudyOptions& v, SweepOptions options,
+                                               const Common& c);
+/// run_study() for a verb: with its engine, and with a message and exit code 0 when other shards have tasks
+/// left.
+int run_study_verb(StudyJob& job, const StudyOptions& v, const SweepOptions& options, const Common& c);
 
 /// Writes NAME.json with the provenance, the last file of a study, and date, threads and directory to
 /// study.json.
 void finish(StudyDirectory& dir, const std::string& name, nlohmann::ordered_json j, const Provenance& p,
-            const StudyOptions& v);
+            unsigned threads);
 /// Prints NAME.json of a complete study, with the directory.
 void print_study(const StudyDirectory& dir, const std::string& name);
-
-/// Reports that other shards have pending tasks; returns the exit code.
-int report_partial(const StudyOptions& v, const Common& c, const StudyDirectory& dir);
 
 }  // namespace faba::cli

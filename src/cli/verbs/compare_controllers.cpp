@@ -6,11 +6,13 @@
 
 #include "cli/command_line.h"
 #include "cli/options/study.h"
+#include "cli/progress.h"
 #include "cli/provenance.h"
 #include "core/counted.h"
 #include "core/file.h"
 #include "study/pages/controller_report.h"
 #include "study/quality/rounded.h"
+#include "study/steering/controller_study.h"
 
 namespace faba::cli {
 namespace {
@@ -40,40 +42,71 @@ void summary(const ControllerComparison& r) {
              counted(std::uint64_t(r.study.seeds), "seed"));
 }
 
-int compare_controllers(const StudyOptions& v, const Common& c) {
-  Progress bar("trials", !c.quiet && !c.json);
-  const SweepOptions options = sweep_options(v, bar);  // errors of options come before those of the study
-  const ControllerStudy study = read_controller_study(v.study);
-  const std::string hash = study_hash(study);
-  if (report_if_complete(v, "controllers", hash, c)) return 0;
-  StudyDirectory dir = open_study(v, "compare-controllers", hash);
-  const auto result = compare_controllers(study, dir.results(), options);
-  bar.clear();
-  if (!result) return report_partial(v, c, dir);
-  const Provenance provenance = provenance_of(c, {v.study, study.scene.name});
-  write_file(dir.path() / "controllers.csv", controllers_csv(*result));
-  write_file(dir.path() / "report.html", controllers_page(*result, provenance));
-  finish(dir, "controllers", controllers_json(*result), provenance, v);
-  if (c.json) print_study(dir, "controllers");
-  if (!c.quiet)
-    for (const std::string& note : result->notes) print_stderr("faba: note: " + note);
-  if (!c.json && !c.quiet) {
-    summary(*result);
+class ControllersJob final : public StudyJob {
+ public:
+  explicit ControllersJob(StudySource source)
+      : source_(std::move(source)), study_(read_controller_study(source_.file)), hash_(study_hash(study_)) {}
+  StudySource source() const override { return source_; }
+  const std::string& hash() const override { return hash_; }
+  std::string report() const override { return "controllers"; }
+
+  bool run(StudyDirectory& dir, SweepOptions options, const Common& c) override {
+    Progress bar("trials", !c.quiet && !c.json);
+    options.progress = [&bar](std::uint64_t done, std::uint64_t total) { bar.update(done, total); };
+    result_ = compare_controllers(study_, dir.results(), options);
+    bar.clear();
+    if (!result_) return false;
+    Provenance provenance;
+    provenance.add(source_.file);
+    provenance.add(study_.scene.name);
+    write_file(dir.path() / "controllers.csv", controllers_csv(*result_));
+    write_file(dir.path() / "report.html", controllers_page(*result_, provenance));
+    finish(dir, report(), controllers_json(*result_), provenance, options.threads);
+    return true;
+  }
+
+  void print(const StudyDirectory& dir, const Common& c) const override {
+    if (c.json) print_study(dir, report());
+    if (!c.quiet)
+      for (const std::string& note : result_->notes) print_stderr("faba: note: " + note);
+    if (c.json || c.quiet) return;
+    summary(*result_);
     fmt::print("wrote {}\n", (dir.path() / "report.html").string());
   }
-  return 0;
+
+  Round round(const std::filesystem::path&, const std::string&) const override {
+    return controller_trials(study_, [&stop = stop_requested()] { return stop.load(); });
+  }
+  std::vector<std::string> value_names() const override { return trial_value_names(); }
+
+ private:
+  StudySource source_;
+  ControllerStudy study_;
+  std::string hash_;
+  std::optional<ControllerComparison> result_;
+};
+
+int compare_controllers_verb(const StudyOptions& v, const Common& c) {
+  const SweepOptions options = sweep_options(v);  // errors of options come before those of the study
+  ControllersJob job({"compare-controllers", v.study, {}, {}});
+  return run_study_verb(job, v, options, c);
 }
 
 }  // namespace
+
+std::unique_ptr<StudyJob> controllers_job(const StudySource& source) {
+  return std::make_unique<ControllersJob>(source);
+}
 
 void add_compare_controllers(CLI::App& app, CommandLine& line) {
   const auto o = std::make_shared<StudyOptions>();
   CLI::App* v = verb(app, line, "compare-controllers",
                      "Compare controllers with several models and delays, each over many seeds",
                      "  faba compare-controllers studies/controllers.toml\n"
-                     "  faba compare-controllers study.toml --out runs/mine --threads 1");
+                     "  faba compare-controllers study.toml --out runs/mine --threads 1\n"
+                     "  faba compare-controllers study.toml --engine local");
   add_study_options(v, *o);
-  v->callback([o, &line] { line.code = compare_controllers(*o, line.common); });
+  v->callback([o, &line] { line.code = compare_controllers_verb(*o, line.common); });
 }
 
 }  // namespace faba::cli

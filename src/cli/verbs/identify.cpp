@@ -6,11 +6,15 @@
 #include "cli/command_line.h"
 #include "cli/options/study.h"
 #include "cli/options/video_part.h"
+#include "cli/progress.h"
 #include "cli/provenance.h"
 #include "cli/quality_text.h"
+#include "core/error.h"
 #include "core/file.h"
 #include "study/identify/best_scene.h"
+#include "study/identify/identify.h"
 #include "study/identify/identify_warnings.h"
+#include "study/identify/response/measured_response.h"
 #include "study/pages/identify_report.h"
 #include "study/quality/rounded.h"
 
@@ -74,45 +78,96 @@ void select_part(IdentifyStudy& study, const VideoPart& part) {
     if (!(video.part.from_s > 0) && !video.part.to_s) video.part = {part.from_s, part.to_s, video.part.fps};
 }
 
-int identify(const IdentifyOptions& o, const Common& c) {
-  const StudyOptions& v = o.study;
-  Progress bar("simulating", !c.quiet && !c.json);
-  SweepOptions options = sweep_options(v, bar);  // errors of options come before those of the study
-  const VideoPart part = o.part.part();
-  IdentifyStudy study = read_identify_study(v.study);
-  select_part(study, part);
-  const std::string hash = study_hash(study);
-  if (report_if_complete(v, "identify", hash, c)) return 0;
-  StudyDirectory dir = open_study(v, "identify", hash);
-  Progress reader("reading frames", !c.quiet && !c.json);
-  std::uint64_t frames = 0;
-  const auto simulating = options.progress;
-  options.progress = [&](std::uint64_t done, std::uint64_t total) {
+PartOptions part_of(const StudySource& source) {
+  PartOptions part;
+  for (std::size_t i = 0; i + 1 < source.options.size(); i += 2)
+    (source.options[i] == "--from" ? part.from : part.to) = std::stod(source.options[i + 1]);
+  return part;
+}
+
+class IdentifyJob final : public StudyJob {
+ public:
+  IdentifyJob(StudySource source, bool needs_videos)
+      : source_(std::move(source)), study_(read_identify_study(source_.file, needs_videos)) {
+    select_part(study_, part_of(source_).part());
+    if (needs_videos)
+      digest_videos(study_);
+    else
+      take_digests();
+    source_.inputs.clear();
+    for (const ResponseInput& video : study_.videos) source_.inputs.push_back(video.digest);
+    hash_ = study_hash(study_);
+  }
+  StudySource source() const override { return source_; }
+  const std::string& hash() const override { return hash_; }
+  std::string report() const override { return "identify"; }
+
+  bool run(StudyDirectory& dir, SweepOptions options, const Common& c) override {
+    Progress bar("simulating", !c.quiet && !c.json), reader("reading frames", !c.quiet && !c.json);
+    std::uint64_t frames = 0;
+    options.progress = [&](std::uint64_t done, std::uint64_t total) {
+      reader.clear();
+      bar.update(done, total);
+    };
+    result_ = identify(study_, dir.results(), options, [&] { reader.update(++frames, 0); });
     reader.clear();
-    simulating(done, total);
-  };
-  const auto result = identify(study, dir.results(), options, [&] { reader.update(++frames, 0); });
-  reader.clear();
-  bar.clear();
-  if (!result) return report_partial(v, c, dir);
-  write_best_scene(*result, dir.path());
-  std::vector<std::filesystem::path> inputs{v.study};
-  for (const ResponseInput& video : study.videos) inputs.push_back(video.file);
-  const Provenance provenance = provenance_of(c, inputs);
-  write_file(dir.path() / "identify.html", identify_page(*result, provenance));
-  finish(dir, "identify", identify_json(*result), provenance, v);
-  if (c.json) print_study(dir, "identify");
-  if (!c.json && !c.quiet) {
-    for (const std::string& note : notes_of(*result)) print_stderr("faba: note: " + note);
-    summary(*result);
-    print_quality(identify_warnings(*result));
+    bar.clear();
+    if (!result_) return false;
+    write_best_scene(*result_, dir.path());
+    Provenance provenance;
+    provenance.add(source_.file);
+    for (const ResponseInput& video : study_.videos) provenance.add(video.file);
+    for (std::size_t i = 0; i + 1 < source_.options.size(); i += 2)
+      provenance.options.emplace_back(source_.options[i], source_.options[i + 1]);
+    write_file(dir.path() / "identify.html", identify_page(*result_, provenance));
+    finish(dir, report(), identify_json(*result_), provenance, options.threads);
+    return true;
+  }
+
+  void print(const StudyDirectory& dir, const Common& c) const override {
+    if (c.json) print_study(dir, report());
+    if (c.json || c.quiet) return;
+    for (const std::string& note : notes_of(*result_)) print_stderr("faba: note: " + note);
+    summary(*result_);
+    print_quality(identify_warnings(*result_));
     fmt::print("wrote {} and best.toml, the scenario of the best model\n",
                (dir.path() / "identify.html").string());
   }
-  return 0;
+
+  Round round(const std::filesystem::path& measured, const std::string& description) const override {
+    return planned_simulations(study_, measured, description);
+  }
+
+ private:
+  void take_digests() {
+    if (source_.inputs.size() != study_.videos.size())
+      throw Error(Errc::usage, source_.file.string(),
+                  fmt::format("has {} videos, but the study was planned with {}", study_.videos.size(),
+                              source_.inputs.size()));
+    for (std::size_t v = 0; v < study_.videos.size(); ++v) study_.videos[v].digest = source_.inputs[v];
+  }
+
+  StudySource source_;
+  IdentifyStudy study_;
+  std::string hash_;
+  std::optional<Identification> result_;
+};
+
+int identify_verb(const IdentifyOptions& o, const Common& c) {
+  const SweepOptions options = sweep_options(o.study);  // errors of options come before those of the study
+  (void)o.part.part();
+  StudySource source{"identify", o.study.study, {}, {}};
+  for (const auto& [name, value] : options_with_effect(c))
+    source.options.insert(source.options.end(), {name, value});
+  IdentifyJob job(source, true);
+  return run_study_verb(job, o.study, options, c);
 }
 
 }  // namespace
+
+std::unique_ptr<StudyJob> identify_job(const StudySource& source, bool needs_inputs) {
+  return std::make_unique<IdentifyJob>(source, needs_inputs);
+}
 
 void add_identify(CLI::App& app, CommandLine& line) {
   const auto o = std::make_shared<IdentifyOptions>();
@@ -120,11 +175,11 @@ void add_identify(CLI::App& app, CommandLine& line) {
       verb(app, line, "identify",
            "Find which model and which parameters explain videos of step responses, and how certain both are",
            "  faba identify studies/step-response.toml\n"
-           "  faba identify study.toml --out runs/part3 --shard 3/16\n"
-           "  faba identify study.toml --out runs/all --merge runs/part1 --merge runs/part2");
+           "  faba identify study.toml --engine local --workers 4\n"
+           "  faba identify study.toml --engine slurm --engine-set partition=short");
   add_study_options(v, o->study);
   add_part_options(v, o->part);
-  v->callback([o, &line] { line.code = identify(*o, line.common); });
+  v->callback([o, &line] { line.code = identify_verb(*o, line.common); });
 }
 
 }  // namespace faba::cli

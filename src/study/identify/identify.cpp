@@ -11,7 +11,7 @@
 #include "study/identify/evidence.h"
 #include "study/identify/families/family_checks.h"
 #include "study/identify/legacy_selection.h"
-#include "study/identify/response_survey.h"
+#include "study/identify/response/measured_response.h"
 #include "study/identify/simulation_round.h"
 #include "study/identify/u_turn.h"
 
@@ -168,20 +168,11 @@ std::vector<SearchedModel> find_models(Identification& r, const std::vector<Cand
 
 }  // namespace
 
-std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& results, SweepOptions options,
-                                       const std::function<void()>& reading) {
+std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& results,
+                                       const SweepOptions& options, const std::function<void()>& reading) {
   Identification r;
   r.study = study;
-  for (std::size_t v = 0; v < study.videos.size(); ++v) {
-    ResponseInput input = study.videos[v];
-    input.threads = options.threads;
-    r.videos.push_back(survey_response(input, study.boundary, study.measure, [&] {
-      reading();
-      if (options.stop())
-        throw Error(Errc::interrupted, study.videos[v].file.string(),
-                    "stopped; completed results are kept; run the same command again to continue");
-    }));
-  }
+  r.videos = measured_responses(study, options, reading);
   check_same_camera(r.videos);
   for (ResponseVideo& v : r.videos) note_field_strength(study, v);
   const ObservedStatistics o = observed_statistics(r.videos);
@@ -200,7 +191,8 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
   r.parts = o.parts_name;
   judge(r);
   if (study.legacy) {
-    auto legacy = legacy_selection(study, r.videos, results, options, reading);
+    auto legacy = legacy_selection(study, r.videos, measured_references(study, r.videos, options, reading),
+                                   results, options);
     if (!legacy) return {};
     r.legacy = std::move(*legacy);
   }

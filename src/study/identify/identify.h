@@ -10,7 +10,7 @@ namespace faba {
 /// Measures the videos, runs the simulations that are missing in `results`, and identifies the models. Empty
 /// when other shards have tasks left. `reading` is called after each frame that is read. Throws Error(input)
 /// for unsuitable videos, and the errors of sweep().
-std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& results, SweepOptions options,
-                                       const std::function<void()>& reading);
+std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& results,
+                                       const SweepOptions& options, const std::function<void()>& reading);
 
 }  // namespace faba

@@ -154,13 +154,14 @@ struct VideoFile {
   }
 };
 
-ResponseInput input_of(const Node& n, const IdentifyFile& study, std::optional<double> um_per_px) {
+ResponseInput input_of(const Node& n, const IdentifyFile& study, std::optional<double> um_per_px,
+                       bool must_exist) {
   const VideoFile v = VideoFile::schema().parse(n);
   if (v.file.empty()) n.fail("key \"file\" is missing; specify a video: file = \"video.avi\"");
   ResponseInput r;
   if (!v.segment.empty() && (v.reversal || v.direction || v.duration))
     n.fail("segment cannot be combined with reversal, direction or duration; give only one of the two");
-  if (!std::filesystem::exists(n.file(v.file)))
+  if (must_exist && !std::filesystem::exists(n.file(v.file)))
     throw Error(Errc::input, n.where("file"),
                 fmt::format("file not found: {} (relative to the study file)", v.file));
   r.file = n.file(v.file);
@@ -276,7 +277,7 @@ Candidate candidate_of(const Variant& model, const IdentifyFile& f, const Identi
 
 }  // namespace
 
-IdentifyStudy read_identify_study(const std::filesystem::path& file) {
+IdentifyStudy read_identify_study(const std::filesystem::path& file, bool needs_videos) {
   const Document d = read_toml(file);
   const Node root(d);
   require_kind(root, FileKind::identify_study);
@@ -320,7 +321,7 @@ IdentifyStudy read_identify_study(const std::filesystem::path& file) {
   const Node videos = root.child("video");
   std::set<std::filesystem::path> seen;
   for (std::size_t i = 0; i < videos.json->size(); ++i) {
-    study.videos.push_back(input_of(videos.item(i), f, um_per_px));
+    study.videos.push_back(input_of(videos.item(i), f, um_per_px, needs_videos));
     if (!seen.insert(std::filesystem::weakly_canonical(study.videos.back().file)).second)
       videos.item(i).fail("duplicate video; it would count as another experiment");
   }

@@ -48,11 +48,17 @@ struct IdentifyStudy {
   std::vector<ResponseInput> videos;
   std::vector<Candidate> candidates;
 };
-/// Reads a study file and checks everything that does not need the videos. Throws Error(usage).
-IdentifyStudy read_identify_study(const std::filesystem::path& file);
+/// Reads a study file and checks everything that does not need the videos. Throws Error(usage), and
+/// Error(input) for a video that does not exist, unless the process does not need the videos.
+IdentifyStudy read_identify_study(const std::filesystem::path& file, bool needs_videos = true);
 /// JSON Schema of a study file.
 Json identify_study_schema();
-/// Hash of everything that the result depends on, including the content of the videos.
+/// Sets the digest of each video. It depends on the content and not on the path: a different video under the
+/// same name is a different study, and a study under another mount point is the same.
+void digest_videos(IdentifyStudy& study);
+/// Hash of everything that the result depends on, with the digests of the videos.
 std::string study_hash(const IdentifyStudy& study);
+/// Hash of everything that the measurement of a video depends on.
+std::string measurement_key(const IdentifyStudy& study, std::size_t video);
 
 }  // namespace faba

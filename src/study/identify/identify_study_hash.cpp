@@ -32,7 +32,42 @@ void hash_content(const std::filesystem::path& file, Hash& h) {
   }
 }
 
+void hash_input(const ResponseInput& v, Hash& h) {
+  h.text(v.digest);
+  h.text(v.experiment);
+  for (const double x : {v.exposure_s, v.part.fps, v.um_per_px.value_or(0), v.reversal_s.value_or(-1),
+                         v.direction_deg.value_or(-999), v.duration_s.value_or(-1)})
+    h.value(x);
+  if (v.part.from_s > 0 || v.part.to_s)
+    for (const double x : {v.part.from_s, v.part.to_s.value_or(-1)}) h.value(x);
+  for (const FieldSegment& d : v.segments) {
+    h.value(d.t0_s);
+    h.value(d.t1_s);
+    h.value(d.direction_deg);
+  }
+}
+
 }  // namespace
+
+void digest_videos(IdentifyStudy& study) {
+  for (ResponseInput& v : study.videos) {
+    Hash h;
+    hash_content(v.file, h);
+    v.digest = h.hex();
+  }
+}
+
+std::string measurement_key(const IdentifyStudy& study, std::size_t video) {
+  const ResponseInput& v = study.videos[video];
+  Hash h;
+  h.text(FABA_VERSION);
+  h.value(int(study.boundary));
+  h.value(int(study.measure));
+  hash_input(v, h);
+  // Episodes without the name of an experiment have that of the file.
+  h.text(v.file.filename().string());
+  return h.hex();
+}
 
 std::string study_hash(const IdentifyStudy& study) {
   Hash h;
@@ -46,20 +81,7 @@ std::string study_hash(const IdentifyStudy& study) {
   for (const double x : {study.scale_sd, study.field_sd, study.count_sd})
     if (x > 0) h.value(x);
   h.text(study.scene.dump());
-  for (const ResponseInput& v : study.videos) {
-    hash_content(v.file, h);
-    h.text(v.experiment);
-    for (const double x : {v.exposure_s, v.part.fps, v.um_per_px.value_or(0), v.reversal_s.value_or(-1),
-                           v.direction_deg.value_or(-999), v.duration_s.value_or(-1)})
-      h.value(x);
-    if (v.part.from_s > 0 || v.part.to_s)  // studies of complete videos keep their hash
-      for (const double x : {v.part.from_s, v.part.to_s.value_or(-1)}) h.value(x);
-    for (const FieldSegment& d : v.segments) {
-      h.value(d.t0_s);
-      h.value(d.t1_s);
-      h.value(d.direction_deg);
-    }
-  }
+  for (const ResponseInput& v : study.videos) hash_input(v, h);
   for (const Candidate& c : study.candidates) {
     h.text(c.model.name);
     h.text(c.model.part.dump());

@@ -1,5 +1,5 @@
 #include "study/identify/legacy_selection.h"
-#include "study/identify/response_survey.h"
+#include "study/identify/response/response_survey.h"
 
 #include <fmt/format.h>
 
@@ -21,14 +21,6 @@ namespace {
 
 constexpr int kValues = 5, kRepeats = 3;    // as in the thesis
 constexpr double kM = 0.9, kThreshold = 3;  // parameters of the distance (A17)
-constexpr const char* kVersion = "legacy 1";
-
-/// The first segment of an episode as flow histograms of all pairs of frames, as in the thesis.
-struct LegacyReference {
-  std::vector<double> times_s;  ///< of the frames, from the start of the episode
-  FlowFilter filter;
-  std::vector<FlowHistograms> pairs;
-};
 
 std::vector<FlowHistograms> histograms_of(const std::vector<GrayF>& frames, const FlowFilter& filter) {
   Pool pool(1);
@@ -124,62 +116,108 @@ std::vector<double> tested_fractions(const Candidate& c) {
   return fractions;
 }
 
-}  // namespace
-
-std::optional<std::vector<LegacyModel>> legacy_selection(const IdentifyStudy& study,
-                                                         const std::vector<ResponseVideo>& videos,
-                                                         ResultStore& results, const SweepOptions& options,
-                                                         const std::function<void()>& reading) {
-  const Parts& parts = builtin_parts();
-  std::vector<std::vector<LegacyReference>> references;
-  for (const ResponseVideo& v : videos) {
-    auto& of_video = references.emplace_back();
-    for (const Episode& e : v.episodes) of_video.push_back(reference_of(v, e, reading));
-  }
+// The simulations in the order of the tasks.
+std::vector<LegacyModel> planned_models(const IdentifyStudy& study,
+                                        const std::vector<ResponseVideo>& videos) {
   std::vector<LegacyModel> models;
-  std::vector<Task> tasks;
   for (const Candidate& c : study.candidates) {
     LegacyModel m;
     m.name = c.model.name;
     m.parameter = c.free.front();
-    const std::vector<double> fractions = tested_fractions(c);
-    for (std::size_t i = 0; i < fractions.size(); ++i)
+    for (const double u : tested_fractions(c))
       for (std::size_t v = 0; v < videos.size(); ++v)
         for (std::size_t e = 0; e < videos[v].episodes.size(); ++e)
-          for (int k = 0; k < kRepeats; ++k) {
-            const ResponseVideo& video = videos[v];
-            Episode episode = video.episodes[e];
-            episode.segments.resize(1);
-            const double u = fractions[i];
-            Document d = episode_scenario(video, episode,
-                                          {study.boundary, study.scene, c.model, c.field_strength_in(video)},
-                                          exact_timing(episode));
-            d.set(c.free.front().path, c.free.front().json(u), "legacy");
-            d.root["microscope"]["noise"] = 0;
-            Hash h;
-            h.value(study.seed);
-            h.text(c.model.name);
-            h.value(int(i));
-            h.value(v);
-            h.value(e);
-            h.value(k);
-            const std::uint64_t seed = h.result() >> 1;
-            m.simulations.push_back({c.free.front().value(u), v, e, std::size_t(k), {}, {}, 0});
-            const LegacyReference& r = references[v][e];
-            const auto scenario = std::make_shared<const Document>(std::move(d));
-            tasks.push_back({task_key(fmt::format("{} {} {}", kVersion, scenario->root.dump(), seed)),
-                             [scenario, seed, &r, &video, &parts] {
-                               return distances(r, simulate_episode(read_scenario(*scenario, parts), seed, 0,
-                                                                    r.times_s, Look::video, video.ground)
-                                                       .frames);
-                             }});
-          }
+          for (std::size_t k = 0; k < std::size_t(kRepeats); ++k)
+            m.simulations.push_back({c.free.front().value(u), v, e, k, {}, {}, 0});
     models.push_back(std::move(m));
   }
-  if (!sweep(results, tasks, options)) return {};
-  std::size_t at = 0;
+  return models;
+}
+
+/// A simulation and the indices that its seed depends on.
+struct LegacyTask {
+  std::size_t candidate = 0, value = 0;
+  LegacySimulation simulation;
+};
+
+std::vector<double> simulate_legacy(const IdentifyStudy& study, const std::vector<ResponseVideo>& videos,
+                                    const LegacyReferences& references, const LegacyTask& t) {
+  const Candidate& c = study.candidates[t.candidate];
+  const auto [v, e] = std::pair(t.simulation.video, t.simulation.episode);
+  const ResponseVideo& video = videos[v];
+  Episode episode = video.episodes[e];
+  episode.segments.resize(1);
+  Document d =
+      episode_scenario(video, episode, {study.boundary, study.scene, c.model, c.field_strength_in(video)},
+                       exact_timing(episode));
+  d.set(c.free.front().path, c.free.front().json(tested_fractions(c)[t.value]), "legacy");
+  d.root["microscope"]["noise"] = 0;
+  Hash h;
+  h.value(study.seed);
+  h.text(c.model.name);
+  h.value(int(t.value));
+  h.value(v);
+  h.value(e);
+  h.value(int(t.simulation.repeat));
+  const LegacyReference& r = references[v][e];
+  return distances(r, simulate_episode(read_scenario(d, builtin_parts()), h.result() >> 1, 0, r.times_s,
+                                       Look::video, video.ground)
+                          .frames);
+}
+
+}  // namespace
+
+LegacyReferences legacy_references(const std::vector<ResponseVideo>& videos,
+                                   const std::function<void()>& reading) {
+  LegacyReferences references;
+  for (const ResponseVideo& v : videos) {
+    auto& of_video = references.emplace_back();
+    for (const Episode& e : v.episodes) of_video.push_back(reference_of(v, e, reading));
+  }
+  return references;
+}
+
+Round legacy_round(const IdentifyStudy& study, const std::vector<ResponseVideo>& videos,
+                   const LegacyReferences& references) {
+  std::vector<LegacyTask> tasks;
+  const std::vector<LegacyModel> models = planned_models(study, videos);
+  for (std::size_t c = 0; c < models.size(); ++c) {
+    const std::size_t values = tested_fractions(study.candidates[c]).size(),
+                      of_value = models[c].simulations.size() / values;
+    for (std::size_t i = 0; i < models[c].simulations.size(); ++i)
+      tasks.push_back({c, i / of_value, models[c].simulations[i]});
+  }
+  Round round;
+  round.description = kLegacyRound;
+  round.size = tasks.size();
+  round.work = [&study, &videos, &references, tasks](std::uint64_t task) {
+    return simulate_legacy(study, videos, references, tasks[task]);
+  };
+  round.labels = [&study, &videos, tasks](std::uint64_t task) -> std::vector<TaskLabel> {
+    const LegacyTask& t = tasks[task];
+    const LegacySimulation& l = t.simulation;
+    return {{"model", study.candidates[t.candidate].model.name},
+            {study.candidates[t.candidate].free.front().path, fmt::format("{:.6g}", l.value), l.value},
+            {"episode", videos[l.video].episodes[l.episode].name},
+            {"repeat", fmt::format("{}", l.repeat + 1), double(l.repeat + 1)}};
+  };
+  return round;
+}
+
+std::optional<std::vector<LegacyModel>> legacy_selection(const IdentifyStudy& study,
+                                                         const std::vector<ResponseVideo>& videos,
+                                                         const LegacyReferences& references,
+                                                         ResultStore& results, const SweepOptions& options) {
+  const Round round = legacy_round(study, videos, references);
+  if (!sweep(results, round, options)) return {};
+  const std::uint64_t key = results.key(round);
+  std::vector<LegacyModel> models = planned_models(study, videos);
+  std::uint64_t at = 0;
   for (LegacyModel& m : models) {
-    for (LegacySimulation& s : m.simulations) s.distance = *results.find(tasks[at++].key);
+    for (LegacySimulation& one : m.simulations) {
+      const std::span<const double> values = results.find({key, at++}).value();
+      one.distance.assign(values.begin(), values.end());
+    }
     conclude(m);
   }
   return models;

@@ -32,6 +32,7 @@ struct ResponseInput {
   std::optional<double> duration_s;     ///< duration after it; empty: to the end of the video
   std::vector<FieldSegment> segments;   ///< instead of these three; times in the video
   std::string where;                    ///< place in the study file, for messages; may be empty
+  std::string digest = {};              ///< of the content of the video, see digest_videos()
 };
 
 /// Result of the measurement of a video: everything to simulate it and to measure the simulations equally.

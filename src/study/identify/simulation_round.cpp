@@ -7,6 +7,7 @@
 
 #include "app/scenario/parts.h"
 #include "app/scenario/read_scenario.h"
+#include "core/archive.h"
 #include "core/error.h"
 #include "core/hash.h"
 
@@ -22,10 +23,18 @@ using Eigen::VectorXd;
 constexpr double kTimingGiven = 0.58, kTimingDetected = 1.5;
 constexpr double kLargestError = 2.5;  // sd
 
-std::string digest(const VectorXd& v) {
+std::string observed_digest(const ObservedStatistics& o) {
   Hash h;
-  h.values(std::span<const double>(v.data(), std::size_t(v.size())));
+  h.values(std::span<const double>(o.numbers.data(), std::size_t(o.numbers.size())));
   return h.hex();
+}
+
+// One description of writing and reading. Numbers of rows and columns precede the elements.
+void archive_matrix(Archive& a, MatrixXd& m) {
+  Index rows = m.rows(), columns = m.cols();
+  std::vector<double> elements(m.data(), m.data() + m.size());
+  a& rows& columns& elements;
+  if (a.reading()) m = Eigen::Map<const MatrixXd>(elements.data(), rows, columns);
 }
 
 // Factor of a quantity with a relative uncertainty.
@@ -68,71 +77,153 @@ Document candidate_scenario(const IdentifyStudy& study, const Candidate& c, cons
   return with_parameters(episode_scenario(v, e, settings_of(study, c, v), timing), c, u);
 }
 
-SimulationRound::SimulationRound(const IdentifyStudy& study, const std::vector<ResponseVideo>& videos,
-                                 const ObservedStatistics& observed)
-    : study_(study), videos_(videos), observed_(observed), observed_digest_(digest(observed.numbers)) {}
-
-void SimulationRound::add(std::size_t candidate, const MatrixXd& u, std::size_t number,
-                          const ModelFamily* family) {
-  for (Index i = 0; i < u.rows(); ++i)
-    for (std::size_t p = 0; p < observed_.parts.size(); ++p)
-      add_one(candidate, u.row(i).transpose(), number, i, p, family);
+std::vector<ModelFamily> families_at(const IdentifyStudy& study, const std::vector<ResponseVideo>& videos,
+                                     const Candidate& c, const VectorXd& at) {
+  const Episode& episode = videos.front().episodes.front();
+  return families_of(c,
+                     candidate_scenario(study, c, videos.front(), episode, at, exact_timing(episode)).root);
 }
 
-void SimulationRound::add_one(std::size_t candidate, const VectorXd& u, std::size_t number, Index i,
-                              std::size_t p, const ModelFamily* family) {
-  const Candidate& c = study_.candidates[candidate];
+SimulationRound::SimulationRound(const IdentifyStudy& study, const std::vector<ResponseVideo>& videos,
+                                 const ObservedStatistics& observed)
+    : study_(study), videos_(videos), observed_(observed) {}
+
+void SimulationRound::add(std::size_t candidate, const MatrixXd& u, std::size_t number,
+                          const std::optional<FamilyChoice>& choice) {
+  Block b{candidate, number, u, choice, {}, size_};
+  if (choice)
+    b.family = families_at(study_, videos_, study_.candidates.at(candidate), choice->at).at(choice->index);
+  size_ += std::uint64_t(u.rows()) * observed_.parts.size();
+  blocks_.push_back(std::move(b));
+}
+
+std::string SimulationRound::description() const {
+  Archive a;
+  std::string kind = kKind, observed = observed_digest(observed_);
+  std::uint64_t blocks = blocks_.size();
+  a& kind& observed& blocks;
+  for (Block b : blocks_) {
+    bool family = b.choice.has_value();
+    a& b.candidate& b.number& family;
+    archive_matrix(a, b.u);
+    if (!family) continue;
+    MatrixXd at = b.choice->at;
+    archive_matrix(a, at);
+    a& b.choice->index;
+  }
+  return {a.bytes().begin(), a.bytes().end()};
+}
+
+void SimulationRound::add_described(const std::string& description) {
+  Archive a(std::vector<std::uint8_t>(description.begin(), description.end()));
+  std::string kind, observed;
+  std::uint64_t blocks = 0;
+  a& kind& observed& blocks;
+  if (kind != kKind || observed != observed_digest(observed_))
+    throw Error(Errc::input, "measured",
+                "the measurement of the videos differs from the one with which the round was planned");
+  for (std::uint64_t k = 0; k < blocks; ++k) {
+    Block b;
+    bool family = false;
+    a& b.candidate& b.number& family;
+    archive_matrix(a, b.u);
+    if (family) {
+      MatrixXd at;
+      archive_matrix(a, at);
+      b.choice.emplace();
+      b.choice->at = at;
+      a& b.choice->index;
+    }
+    add(b.candidate, b.u, b.number, b.choice);
+  }
+}
+
+const SimulationRound::Block& SimulationRound::block_of(std::uint64_t task) const {
+  const auto after = std::upper_bound(blocks_.begin(), blocks_.end(), task,
+                                      [](std::uint64_t t, const Block& b) { return t < b.first; });
+  return *std::prev(after);
+}
+
+std::vector<double> SimulationRound::simulate(std::uint64_t task) const {
+  const Block& block = block_of(task);
+  const std::uint64_t i = (task - block.first) / observed_.parts.size(),
+                      p = (task - block.first) % observed_.parts.size();
+  const Candidate& c = study_.candidates[block.candidate];
   const ObservedStatistics::Part& part = observed_.parts[p];
   const ResponseVideo& video = videos_[part.video];
   const Episode& episode = video.episodes[part.episode];
   // Independent seed for each simulation.
-  const std::uint64_t seed = seed_of({study_.seed, candidate, number, std::uint64_t(i), p});
+  const std::uint64_t seed = seed_of({study_.seed, block.candidate, block.number, i, p});
   // Scale and field are those of the camera and the coils: the same in all episodes of a simulation.
-  StudyRandom common(seed_of({study_.seed, candidate, number, std::uint64_t(i)}), StudyDraws::apparatus),
+  StudyRandom common(seed_of({study_.seed, block.candidate, block.number, i}), StudyDraws::apparatus),
       own(seed, StudyDraws::apparatus);
   EpisodeSettings settings = settings_of(study_, c, video);
   settings.scale_factor = factor(common, study_.scale_sd);
   settings.field_strength_t *= factor(common, study_.field_sd);
   const double timing_sd = (video.segments_detected ? kTimingDetected : kTimingGiven) / video.fps;
   SegmentTiming timing = random_timing(episode, study_.timing_s.value_or(timing_sd), seed);
-  if (family) {
-    settings.field_strength_t *= family->field_factor;
-    for (double& start : timing.starts_s) start += family->delay_frames / video.fps;
+  if (block.family) {
+    settings.field_strength_t *= block.family->field_factor;
+    for (double& start : timing.starts_s) start += block.family->delay_frames / video.fps;
   }
-  Document scenario = with_parameters(episode_scenario(video, episode, settings, timing), c, u);
+  Document scenario = with_parameters(episode_scenario(video, episode, settings, timing), c,
+                                      block.u.row(Index(i)).transpose());
   scale_counts(scenario, c, factor(own, study_.count_sd));
-  if (family && family->edit) family->edit(scenario);
-  const auto d = std::make_shared<const Document>(std::move(scenario));
-  const std::string key = task_key(fmt::format("response 1 {} {} {} {} {} {}", d->root.dump(), seed,
-                                               timing.lead_s, observed_digest_, p, int(study_.look)));
-  tasks_.push_back({key, [this, d, seed, lead = timing.lead_s, &part, &video] {
-                      try {
-                        const EpisodeObservation seen =
-                            simulate_episode(read_scenario(*d, builtin_parts()), seed, lead,
-                                             part.statistics->times_s(), study_.look, video.ground);
-                        std::vector<double> numbers = study_.look == Look::video
-                                                          ? part.statistics->of_frames(seen.frames)
-                                                          : part.statistics->of_positions(seen.positions);
-                        StudyRandom random(seed, StudyDraws::measurement);
-                        part.statistics->blur(numbers, random);
-                        return numbers;
-                      } catch (const Error& e) {
-                        if (e.code() != Errc::usage) throw;
-                        // Incompatible values, such as speeds that need too many steps.
-                        return std::vector<double>(std::size_t(part.count), std::nan(""));
-                      }
-                    }});
+  if (block.family && block.family->edit) block.family->edit(scenario);
+  try {
+    const EpisodeObservation seen =
+        simulate_episode(read_scenario(scenario, builtin_parts()), seed, timing.lead_s,
+                         part.statistics->times_s(), study_.look, video.ground);
+    std::vector<double> numbers = study_.look == Look::video ? part.statistics->of_frames(seen.frames)
+                                                             : part.statistics->of_positions(seen.positions);
+    StudyRandom random(seed, StudyDraws::measurement);
+    part.statistics->blur(numbers, random);
+    return numbers;
+  } catch (const Error& e) {
+    if (e.code() != Errc::usage) throw;
+    // Incompatible values, such as speeds that need too many steps.
+    return std::vector<double>(std::size_t(part.count), std::nan(""));
+  }
+}
+
+std::vector<TaskLabel> SimulationRound::labels(std::uint64_t task) const {
+  const Block& block = block_of(task);
+  const std::uint64_t row = (task - block.first) / observed_.parts.size(),
+                      p = (task - block.first) % observed_.parts.size();
+  const ObservedStatistics::Part& part = observed_.parts[p];
+  const Candidate& c = study_.candidates[block.candidate];
+  std::vector<TaskLabel> labels{{"model", c.model.name},
+                                {"extension", block.family ? block.family->what : ""},
+                                {"episode", videos_[part.video].episodes[part.episode].name},
+                                {"simulation", fmt::format("{}", row + 1), double(row + 1)}};
+  for (std::size_t j = 0; j < c.free.size(); ++j) {
+    const double value = c.free[j].value(block.u(Index(row), Index(j)));
+    labels.push_back({c.free[j].path, fmt::format("{:.6g}", value), value});
+  }
+  return labels;
+}
+
+Round SimulationRound::tasks() const {
+  return {description(), size_, [this](std::uint64_t task) { return simulate(task); },
+          [this](std::uint64_t task) { return labels(task); }};
+}
+
+bool SimulationRound::run(ResultStore& results, const SweepOptions& options) {
+  const Round round = tasks();
+  key_ = results.key(round);
+  return sweep(results, round, options);
 }
 
 MatrixXd SimulationRound::take(const ResultStore& results, Index rows) {
   MatrixXd s = MatrixXd::Constant(rows, observed_.numbers.size(), std::nan(""));
   for (Index i = 0; i < rows; ++i)
     for (const ObservedStatistics::Part& part : observed_.parts) {
-      const std::vector<double>& values = *results.find(tasks_[taken_++].key);
+      const std::span<const double> values = results.find({key_, taken_++}).value();
       if (Index(values.size()) != part.count)
         throw Error(
-            Errc::usage, "results.jsonl",
-            fmt::format("result with {} numbers, expected {}; delete the file to compute all results again",
+            Errc::usage, results.folder().string(),
+            fmt::format("result with {} numbers, expected {}; delete the folder to compute all results "
+                        "again",
                         values.size(), part.count));
       s.row(i).segment(part.begin, part.count) =
           Eigen::Map<const VectorXd>(values.data(), part.count).transpose();

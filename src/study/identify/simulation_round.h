@@ -1,5 +1,7 @@
 #pragma once
 #include <Eigen/Core>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "study/identify/families/model_family.h"
@@ -12,8 +14,18 @@ namespace faba {
 Document candidate_scenario(const IdentifyStudy& study, const Candidate& c, const ResponseVideo& v,
                             const Episode& e, const Eigen::VectorXd& u, const SegmentTiming& timing);
 
-/// The simulations of one round, as tasks. Each simulation samples what is known with an uncertainty: times
-/// of field reversals, number of cells, scale and field strength.
+/// An extension of a candidate by one of its families.
+struct FamilyChoice {
+  Eigen::VectorXd at;     ///< parameters at which families_of() is evaluated, as fractions of their ranges
+  std::size_t index = 0;  ///< in families_of()
+};
+
+/// The families of a candidate at parameters `at`.
+std::vector<ModelFamily> families_at(const IdentifyStudy& study, const std::vector<ResponseVideo>& videos,
+                                     const Candidate& c, const Eigen::VectorXd& at);
+
+/// The simulations of one round. Each simulation samples what is known with an uncertainty: times of field
+/// reversals, number of cells, scale and field strength.
 class SimulationRound {
  public:
   SimulationRound(const IdentifyStudy& study, const std::vector<ResponseVideo>& videos,
@@ -22,23 +34,40 @@ class SimulationRound {
   /// Adds simulations of candidate `candidate`, one for each row of `u` and each episode. Simulations of one
   /// `number` and candidate have the same random numbers with and without a family.
   void add(std::size_t candidate, const Eigen::MatrixXd& u, std::size_t number,
-           const ModelFamily* family = nullptr);
-  bool empty() const { return tasks_.empty(); }
+           const std::optional<FamilyChoice>& family = {});
+  bool empty() const { return blocks_.empty(); }
+  /// The tasks; the round must outlive them.
+  Round tasks() const;
   /// False when other shards have tasks left. Throws the errors of sweep().
-  bool run(ResultStore& results, const SweepOptions& options) { return sweep(results, tasks_, options); }
+  bool run(ResultStore& results, const SweepOptions& options);
   /// Statistics of the simulations of the next add(), one row each; NaN for failed simulations. Throws
   /// Error(usage) for damaged results.
   Eigen::MatrixXd take(const ResultStore& results, Eigen::Index rows);
 
+  /// First word of the description of these rounds.
+  static constexpr const char* kKind = "response 2";
+  /// Adds the blocks of a description that tasks() has made. Throws Error(input) if it is of other videos.
+  void add_described(const std::string& description);
+
  private:
-  void add_one(std::size_t candidate, const Eigen::VectorXd& u, std::size_t number, Eigen::Index i,
-               std::size_t p, const ModelFamily* family);
+  /// The simulations of one add().
+  struct Block {
+    std::size_t candidate = 0, number = 0;
+    Eigen::MatrixXd u;
+    std::optional<FamilyChoice> choice;
+    std::optional<ModelFamily> family;
+    std::uint64_t first = 0;  ///< task
+  };
+  const Block& block_of(std::uint64_t task) const;
+  std::vector<double> simulate(std::uint64_t task) const;
+  std::vector<TaskLabel> labels(std::uint64_t task) const;
+  std::string description() const;
+
   const IdentifyStudy& study_;
   const std::vector<ResponseVideo>& videos_;
   const ObservedStatistics& observed_;
-  std::string observed_digest_;
-  std::vector<Task> tasks_;
-  std::size_t taken_ = 0;
+  std::vector<Block> blocks_;
+  std::uint64_t size_ = 0, taken_ = 0, key_ = 0;
 };
 
 }  // namespace faba

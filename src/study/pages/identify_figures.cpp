@@ -1,5 +1,5 @@
 #include "study/pages/identify_figures.h"
-#include "study/identify/response_survey.h"
+#include "study/identify/response/response_survey.h"
 
 #include <fmt/format.h>
 

@@ -123,26 +123,26 @@ std::array<double, 2> fraction_ci95(int k, int n) {
   return {std::max(0.0, (centre - half) / scale), std::min(1.0, (centre + half) / scale)};
 }
 
+using Trials = std::vector<std::span<const double>>;  // values of each trial, see trial_values()
+
 // Mean and standard deviation over the trials, point by point.
-void curves(const std::vector<const std::vector<double>*>& trials, Combination& c) {
-  const std::size_t first = compared_metrics().size(), points = (trials.front()->size() - first) / 3;
-  const auto value = [&](const std::vector<double>& t, std::size_t what, std::size_t k) {
+void curves(const Trials& trials, Combination& c) {
+  const std::size_t first = compared_metrics().size(), points = (trials.front().size() - first) / 3;
+  const auto value = [&](std::span<const double> t, std::size_t what, std::size_t k) {
     return t[first + what * points + k];
   };
   for (std::size_t k = 0; k < points; ++k) {
-    c.t_s.push_back(value(*trials.front(), 0, k));
+    c.t_s.push_back(value(trials.front(), 0, k));
     for (const std::size_t what : {std::size_t(1), std::size_t(2)}) {
       std::vector<double> one;
       one.reserve(trials.size());
-      for (const auto* t : trials) one.push_back(value(*t, what, k));
+      for (const auto t : trials) one.push_back(value(t, what, k));
       const MeanOverSeeds m = mean_of(one);
       (what == 1 ? c.distance_px : c.rms_radius_px).push_back(m.n > 0 ? m.mean : kNaN);
       (what == 1 ? c.distance_sd_px : c.rms_radius_sd_px).push_back(m.n > 0 ? m.sd : kNaN);
     }
   }
 }
-
-using Trials = std::vector<const std::vector<double>*>;
 
 Combination combined(const ControllerStudy& study, const Setting& s, const Trials& trials) {
   Combination c;
@@ -153,7 +153,7 @@ Combination combined(const ControllerStudy& study, const Setting& s, const Trial
   const std::vector<const MetricInfo*> metrics = compared_metrics();
   for (std::size_t i = 0; i < metrics.size(); ++i) {
     std::vector<double> values;
-    for (const auto* t : trials) values.push_back((*t)[i]);
+    for (const auto t : trials) values.push_back(t[i]);
     const MeanOverSeeds m = mean_of(values);
     if (metrics[i]->value == &Metrics::settling_time_s) c.settled = m.n;
     if (m.n > 0) c.metrics[metrics[i]->key] = m;
@@ -180,7 +180,7 @@ void compare_with_best(std::vector<Combination>& all, const std::vector<Trials>&
     if (i == best) continue;
     std::vector<double> difference;
     for (std::size_t k = 0; k < trials[i].size(); ++k)
-      difference.push_back((*trials[i][k])[ranked] - (*trials[best][k])[ranked]);
+      difference.push_back(trials[i][k][ranked] - trials[best][k][ranked]);
     const MeanOverSeeds m = mean_of(difference);
     if (m.n > 1) all[i].excess_over_best = m;
   }
@@ -236,25 +236,57 @@ std::string study_hash(const ControllerStudy& study) {
   return h.hex();
 }
 
+namespace {
+
+std::vector<TaskLabel> trial_labels(const ControllerStudy& study, const Setting& s, std::uint64_t seed) {
+  return {{"controller", study.controllers[s.controller].name},
+          {"model", study.models[s.model].name},
+          {"delay_frames", fmt::format("{}", s.delay), double(s.delay)},
+          {"seed", fmt::format("{}", seed), double(seed)}};
+}
+
+// The round of all trials: for each setting, one trial for each seed.
+Round trials_of(const ControllerStudy& study, std::shared_ptr<const std::vector<Setting>> all,
+                const std::function<bool()>& stop) {
+  Round round;
+  round.description = "controller trials, metrics of version 0.3";
+  const auto seeds = std::uint64_t(study.seeds), first = study.first_seed;
+  round.size = all->size() * seeds;
+  round.work = [all, seeds, first, stop](std::uint64_t task) {
+    return trial_values((*all)[task / seeds], first + task % seeds, stop);
+  };
+  round.labels = [&study, all, seeds, first](std::uint64_t task) {
+    return trial_labels(study, (*all)[task / seeds], first + task % seeds);
+  };
+  return round;
+}
+
+}  // namespace
+
+Round controller_trials(const ControllerStudy& study, const std::function<bool()>& stop) {
+  return trials_of(study, std::make_shared<const std::vector<Setting>>(settings(study)), stop);
+}
+
+std::vector<std::string> trial_value_names() {
+  std::vector<std::string> names;
+  for (const MetricInfo* m : compared_metrics()) names.push_back(m->key);
+  return names;
+}
+
 std::optional<ControllerComparison> compare_controllers(const ControllerStudy& study, ResultStore& results,
                                                         const SweepOptions& options) {
   std::vector<std::string> notes;
-  const std::vector<Setting> all = settings(study, &notes);
-  std::vector<Task> tasks;
-  for (const Setting& s : all)
-    for (int k = 0; k < study.seeds; ++k) {
-      const std::uint64_t seed = study.first_seed + std::uint64_t(k);
-      tasks.push_back(
-          {task_key(fmt::format("controller trial, metrics of version 0.3, {} {}", s.scenario.hash(), seed)),
-           [&s, seed, &options] { return trial_values(s, seed, options.stop); }});
-    }
-  if (!sweep(results, tasks, options)) return {};
+  const auto shared = std::make_shared<const std::vector<Setting>>(settings(study, &notes));
+  const std::vector<Setting>& all = *shared;
+  const Round round = trials_of(study, shared, options.stop);
+  if (!sweep(results, round, options)) return {};
+  const std::uint64_t key = results.key(round);
   ControllerComparison c{study, {}, std::move(notes)};
   std::vector<Trials> trials;
+  const auto seeds = std::size_t(study.seeds);
   for (std::size_t i = 0; i < all.size(); ++i) {
     Trials& of = trials.emplace_back();
-    for (int k = 0; k < study.seeds; ++k)
-      of.push_back(results.find(tasks[i * std::size_t(study.seeds) + std::size_t(k)].key));
+    for (std::size_t k = 0; k < seeds; ++k) of.push_back(results.find({key, i * seeds + k}).value());
     c.combinations.push_back(combined(study, all[i], of));
   }
   for (std::size_t i = 0; i < all.size(); i += study.controllers.size())

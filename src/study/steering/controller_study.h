@@ -64,4 +64,9 @@ std::string study_hash(const ControllerStudy& study);
 std::optional<ControllerComparison> compare_controllers(const ControllerStudy& study, ResultStore& results,
                                                         const SweepOptions& options);
 
+/// The trials of the study as tasks; `study` must outlive them. Trials end early when `stop` is true.
+Round controller_trials(const ControllerStudy& study, const std::function<bool()>& stop);
+/// Names of the first values of a trial; the others are times, distances and radii at some of the frames.
+std::vector<std::string> trial_value_names();
+
 }  // namespace faba

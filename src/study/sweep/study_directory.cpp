@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <optional>
-
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
@@ -13,23 +11,76 @@ namespace faba {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr const char *kMarker = "incomplete", *kStudy = "study.json", *kResults = "results.jsonl";
+using OrderedJson = nlohmann::ordered_json;
+using namespace study_files;
 
-// The hash of the study in a directory.
+// Everything that a study writes into its directory, apart from study.json and the marker.
+constexpr const char* kWritten[] = {"identify.json",    "identify.html",   "best.toml",   "background.png",
+                                    "controllers.json", "controllers.csv", "report.html", kResults,
+                                    "results.jsonl",    kRounds,           kMeasured,     kJobs,
+                                    kAttempts};
+
+// study.json; null when it does not exist or is not a study.
+OrderedJson study_in(const fs::path& dir) {
+  if (!fs::is_regular_file(dir / kStudy)) return nullptr;
+  OrderedJson j = OrderedJson::parse(read_file(dir / kStudy), nullptr, false);
+  if (!j.is_object()) return nullptr;
+  return j;
+}
+
 std::optional<std::string> hash_of_study_in(const fs::path& dir) {
-  if (!fs::is_regular_file(dir / kStudy)) return {};
-  const auto j = nlohmann::json::parse(read_file(dir / kStudy), nullptr, false);
-  if (!j.is_object()) return {};
+  const OrderedJson j = study_in(dir);
   for (const char* key : {"study_hash", "fingerprint"})  // name in an earlier version
-    if (j.contains(key) && j[key].is_string()) return j[key].get<std::string>();
+    if (j.is_object() && j.contains(key) && j[key].is_string()) return j[key].get<std::string>();
   return {};
 }
 
-// Output files of all kinds of studies.
-constexpr const char* kWritten[] = {"identify.json",    "identify.html",   "best.toml",  "background.png",
-                                    "controllers.json", "controllers.csv", "report.html"};
+// The path of the study file is stored as given, relative to the directory and absolute, because workers can
+// have another working directory and another mount point.
+OrderedJson study_json(const fs::path& dir, const std::string& study_hash, const StudySource& s) {
+  OrderedJson j{{"study_hash", study_hash}, {"version", FABA_VERSION}};
+  if (s.empty()) return j;
+  const fs::path file = fs::absolute(s.file).lexically_normal();
+  j["command"] = s.verb;
+  j["file"] = s.file.string();
+  j["file_from_here"] = file.lexically_relative(fs::absolute(dir).lexically_normal()).string();
+  j["file_absolute"] = file.string();
+  j["inputs"] = s.inputs;
+  j["options"] = s.options;
+  return j;
+}
+
+fs::path study_file(const fs::path& dir, const OrderedJson& j) {
+  const fs::path given = j.value("file", ""), here = dir / j.value("file_from_here", ""),
+                 absolute = j.value("file_absolute", "");
+  std::error_code ec;
+  for (const fs::path& file : {given, here, absolute})
+    if (fs::is_regular_file(file, ec)) return file;
+  throw Error(Errc::input, dir.string(),
+              fmt::format("the study file {} is not found, neither at {} nor at {}; it must be in the folder "
+                          "that all machines share",
+                          given.string(), here.string(), absolute.string()));
+}
 
 }  // namespace
+
+StoredStudy stored_study(const fs::path& dir) {
+  const OrderedJson j = study_in(dir);
+  if (j.is_null() || !j.contains("command"))
+    throw Error(Errc::input, dir.string(),
+                "contains no study; give the directory that `faba study plan` or the command of the study "
+                "has written");
+  StoredStudy s{j.value("study_hash", ""), j.value("version", ""), {}};
+  if (s.version != FABA_VERSION)
+    throw Error(
+        Errc::usage, dir.string(),
+        fmt::format("the study was planned by faba {}, this is faba {}; use one version for all parts "
+                    "of a study",
+                    s.version, FABA_VERSION));
+  s.source = {j["command"].get<std::string>(), study_file(dir, j),
+              j.value("inputs", std::vector<std::string>()), j.value("options", std::vector<std::string>())};
+  return s;
+}
 
 bool holds_complete_study(const fs::path& dir, const std::string& study_hash) {
   return hash_of_study_in(dir) == study_hash && !fs::exists(dir / kMarker);
@@ -37,16 +88,18 @@ bool holds_complete_study(const fs::path& dir, const std::string& study_hash) {
 
 StudyDirectory::~StudyDirectory() {
   if (!new_ || complete_ || !results_ || !results_->empty()) return;
+  if (fs::exists(dir_ / kRounds) || fs::exists(dir_ / kResults)) return;
   results_.reset();
   lock_.complete();
   std::error_code ignored;
-  for (const char* name : {kResults, kStudy}) fs::remove(dir_ / name, ignored);
+  fs::remove(dir_ / kStudy, ignored);
+  fs::remove_all(dir_ / kMeasured, ignored);
   fs::remove(dir_, ignored);  // fails when it contains other files
 }
 
 StudyDirectory::StudyDirectory(const fs::path& dir, const std::string& study_hash,
-                               const std::string& resume_command, bool force)
-    : dir_(dir), study_hash_(study_hash) {
+                               const std::string& resume_command, bool force, StudySource source)
+    : dir_(dir), study_hash_(study_hash), source_(std::move(source)) {
   std::error_code ec;
   if (fs::exists(fs::symlink_status(dir)) && !fs::is_directory(dir))
     throw Error(Errc::usage, dir.string(), "exists and is not a directory; choose another --out");
@@ -65,20 +118,18 @@ StudyDirectory::StudyDirectory(const fs::path& dir, const std::string& study_has
   if (same && !fs::exists(dir / kMarker) && !force)
     throw Error(Errc::usage, dir.string(),
                 "the study is already complete; choose another --out, or --force to write its pages again");
-  lock_ = FileLock(dir / kMarker, dir,
-                   fmt::format("This study is not complete. Resume it with: {}\n", resume_command));
-  if (!same) {
-    fs::remove(dir / kResults, ec);
-    if (existing)
-      for (const char* name : kWritten) fs::remove(dir / name, ec);
-    write_file(dir / kStudy,
-               nlohmann::ordered_json{{"study_hash", study_hash}, {"version", FABA_VERSION}}.dump(2) + "\n");
-  }
-  results_ = std::make_unique<ResultStore>(dir / kResults);
+  lock_ =
+      FileLock(dir / kMarker, dir,
+               fmt::format("This study is not complete. Resume it with: {}\n", resume_command), Errc::busy);
+  if (existing && !same)
+    for (const char* name : kWritten) fs::remove_all(dir / name, ec);
+  if (!same || !source_.empty())
+    write_file(dir / kStudy, study_json(dir, study_hash, source_).dump(2) + "\n");
+  results_ = std::make_unique<ResultStore>(dir / kResults, study_hash);
 }
 
-void StudyDirectory::complete(const nlohmann::ordered_json& more) {
-  nlohmann::ordered_json j{{"study_hash", study_hash_}, {"version", FABA_VERSION}};
+void StudyDirectory::complete(const OrderedJson& more) {
+  OrderedJson j = study_json(dir_, study_hash_, source_);
   j.update(more);
   write_file(dir_ / kStudy, j.dump(2) + "\n");
   lock_.complete();
@@ -98,10 +149,8 @@ void check_merge(const std::vector<fs::path>& dirs, const std::string& study_has
 
 void StudyDirectory::merge(const std::vector<fs::path>& dirs) {
   check_merge(dirs, study_hash_);
-  for (const fs::path& other : dirs) {
-    if (fs::weakly_canonical(other) != fs::weakly_canonical(dir_) && fs::exists(other / kResults))
-      results_->merge(other / kResults);
-  }
+  for (const fs::path& other : dirs)
+    if (fs::weakly_canonical(other) != fs::weakly_canonical(dir_)) results_->merge(other / kResults);
 }
 
 }  // namespace faba

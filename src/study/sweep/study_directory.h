@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,31 @@
 #include "study/sweep/result_store.h"
 
 namespace faba {
+
+/// Names in the directory of a study; docs/formats/study-directory.md describes them.
+namespace study_files {
+inline constexpr const char *kMarker = "incomplete", *kStudy = "study.json", *kResults = "results",
+                            *kRounds = "rounds", *kMeasured = "measured", *kJobs = "jobs",
+                            *kAttempts = "attempts.csv";
+}  // namespace study_files
+
+/// How to read the study of a directory again; stored in its study.json.
+struct StudySource {
+  std::string verb;                  ///< "identify"
+  std::filesystem::path file;        ///< the study file, as given
+  std::vector<std::string> inputs;   ///< digests of the videos, which workers do not read
+  std::vector<std::string> options;  ///< options of the verb that change the study: "--from", "2"
+  bool empty() const { return verb.empty(); }
+};
+
+/// What study.json contains.
+struct StoredStudy {
+  std::string hash, version;
+  StudySource source;  ///< `file`: a path that exists here, also when the folder is mounted in another place
+};
+/// Reads study.json of a directory. Throws Error(input) when the directory contains no study or the study
+/// file is not found, Error(usage) when another version of the program wrote it.
+StoredStudy stored_study(const std::filesystem::path& dir);
 
 /// Whether `dir` contains the complete study with this hash.
 bool holds_complete_study(const std::filesystem::path& dir, const std::string& study_hash);
@@ -23,11 +49,11 @@ class StudyDirectory {
  public:
   /// Creates `dir`, or resumes the study in it. `study_hash` is the hash of all inputs of the study,
   /// `resume_command` the command that resumes it. Throws Error(usage) when the directory contains other
-  /// files, a different study or (without `force`) the complete study, and when another process uses it. With
-  /// `force` the results of a different study are deleted; those of the same study are used.
+  /// files, a different study or (without `force`) the complete study, Error(busy) when another process uses
+  /// it. With `force` the results of a different study are deleted; those of the same study are used.
   StudyDirectory(const std::filesystem::path& dir, const std::string& study_hash,
-                 const std::string& resume_command, bool force);
-  /// Deletes a directory that was created for a study without results.
+                 const std::string& resume_command, bool force, StudySource source = {});
+  /// Deletes a directory that was created for a study that has neither results nor a round.
   ~StudyDirectory();
   StudyDirectory(StudyDirectory&&) = default;
 
@@ -42,6 +68,7 @@ class StudyDirectory {
  private:
   std::filesystem::path dir_;
   std::string study_hash_;
+  StudySource source_;
   FileLock lock_;
   bool new_ = false, complete_ = false;
   std::unique_ptr<ResultStore> results_;

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <mutex>
 
 #include "core/error.h"
-#include "core/hash.h"
 #include "core/threads/parallel.h"
 
 namespace faba {
@@ -22,38 +22,45 @@ void keep_freed_memory() {
 
 }  // namespace
 
-std::string task_key(const std::string& what) {
-  Hash h;
-  h.text(FABA_VERSION);
-  h.text(what);
-  return h.hex();
+Error study_stopped(const std::string& where) {
+  return {Errc::interrupted, where,
+          "stopped; completed results are kept; run the same command again to continue"};
 }
 
-bool sweep(ResultStore& store, std::span<const Task> tasks, const SweepOptions& o) {
+std::vector<std::uint64_t> missing_tasks(const ResultStore& store, const Round& round) {
+  const std::uint64_t key = store.key(round);
+  std::vector<std::uint64_t> missing;
+  for (std::uint64_t i = 0; i < round.size; ++i)
+    if (!store.find({key, i})) missing.push_back(i);
+  return missing;
+}
+
+bool sweep(ResultStore& store, const Round& round, const SweepOptions& o) {
   keep_freed_memory();
-  std::vector<const Task*> todo;
-  std::uint64_t shard_tasks = 0;
-  for (std::size_t i = 0; i < tasks.size(); ++i) {
-    if (i % o.shard.count != o.shard.index - 1) continue;
-    ++shard_tasks;
-    if (!store.find(tasks[i].key)) todo.push_back(&tasks[i]);
-  }
+  if (o.elsewhere) return o.elsewhere(round, store);
+  const std::uint64_t key = store.key(round);
+  std::vector<std::uint64_t> todo = missing_tasks(store, round);
+  const std::size_t missing = todo.size();
+  std::erase_if(todo, [&](std::uint64_t i) { return i % o.shard.count != o.shard.index - 1; });
+  const std::uint64_t of_others = missing - todo.size();
+  const std::uint64_t shard_tasks =
+      round.size / o.shard.count + (round.size % o.shard.count >= o.shard.index);
   std::atomic<bool> stopped{false};
-  std::mutex storing;
+  std::mutex counting;
   std::uint64_t done = shard_tasks - todo.size();
   Pool pool(o.threads);
   pool.run_uneven(todo.size(), [&](std::size_t i) {
     if (stopped) return;
-    const std::vector<double> values = todo[i]->work();
-    const std::lock_guard lock(storing);
-    store.add(todo[i]->key, values);
+    const auto begin = std::chrono::steady_clock::now();
+    const std::vector<double> values = round.work(todo[i]);
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+    store.add({key, todo[i]}, values, time.count());
+    const std::lock_guard lock(counting);
     o.progress(++done, shard_tasks);
     if (o.stop()) stopped = true;
   });
-  if (done < shard_tasks)
-    throw Error(Errc::interrupted, "",
-                "stopped; completed results are kept; run the same command again to continue");
-  return std::all_of(tasks.begin(), tasks.end(), [&](const Task& t) { return store.find(t.key) != nullptr; });
+  if (done < shard_tasks) throw study_stopped();
+  return of_others == 0;
 }
 
 }  // namespace faba

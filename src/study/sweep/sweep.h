@@ -1,25 +1,18 @@
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <functional>
-#include <span>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "study/sweep/result_store.h"
+#include "study/sweep/round.h"
 
 namespace faba {
 
-/// A task of a study; it runs on one thread, in any order.
-struct Task {
-  std::string key;  ///< hash of everything that the result depends on: task_key()
-  std::function<std::vector<double>()> work;
-};
-
-/// Hash of the description of a task and the version of the program.
-std::string task_key(const std::string& what);
-
-/// Part `index` of `count` of the tasks, 1 <= index <= count: those whose position in the list modulo count
-/// is index - 1.
+/// Part `index` of `count` of the tasks, 1 <= index <= count: those whose number modulo count is index - 1.
 struct Shard {
   std::uint64_t index = 1, count = 1;
 };
@@ -27,14 +20,26 @@ struct Shard {
 struct SweepOptions {
   unsigned threads = 0;  ///< 0: all processors
   Shard shard = {};
+  /// Folder for measurements of the inputs of the study, such as videos, which take long and are needed
+  /// again when the study is resumed. Empty: they are not stored.
+  std::filesystem::path measured = {};
   std::function<void(std::uint64_t done, std::uint64_t total)> progress = [](auto, auto) {};
   std::function<bool()> stop = [] { return false; };  ///< checked between tasks
+  /// Computes the missing results of a round in other processes; called for every round, also for one that is
+  /// complete. Returns whether all results are in the store. Empty: the threads of this process compute them.
+  std::function<bool(const Round&, ResultStore&)> elsewhere = {};
 };
 
-/// Runs those tasks of the shard that have no result in `store`, on several threads. Each result is stored
-/// immediately, so that a killed sweep can be resumed. Returns whether the results of all tasks are
-/// available, including those of other shards. An exception of a task ends the sweep and is rethrown. Throws
-/// Error(interrupted) when stopped.
-bool sweep(ResultStore& store, std::span<const Task> tasks, const SweepOptions& options);
+/// Computes the tasks of a round that have no result in `store`. Each result is stored immediately, so that a
+/// killed sweep can be resumed. Returns whether the results of all tasks are available, including those of
+/// other shards. An exception of a task ends the sweep and is rethrown. Throws Error(interrupted) when
+/// stopped.
+bool sweep(ResultStore& store, const Round& round, const SweepOptions& options);
+
+/// Numbers of the tasks of a round without a result, ascending.
+std::vector<std::uint64_t> missing_tasks(const ResultStore& store, const Round& round);
+
+/// Error of a study that was stopped.
+Error study_stopped(const std::string& where = "");
 
 }  // namespace faba

@@ -4,13 +4,14 @@
 
 #include <atomic>
 #include <cmath>
-#include <fstream>
+#include <filesystem>
 #include <limits>
 
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "core/file.h"
+#include "study/sweep/round_planner.h"
 #include "study/sweep/study_directory.h"
 #include "tests/temporary_folder.h"
 
@@ -19,16 +20,26 @@ using namespace faba;
 namespace {
 
 struct Work {
-  std::vector<Task> tasks;
   std::atomic<int> done{0};
-  explicit Work(int n) {
-    for (int i = 0; i < n; ++i)
-      tasks.push_back({task_key(std::to_string(i)), [this, i] {
-                         ++done;
-                         return std::vector<double>{double(i), 1.0 / (i + 3)};
-                       }});
+  Round round;
+  explicit Work(std::uint64_t n) {
+    round.description = "work";
+    round.size = n;
+    round.work = [this](std::uint64_t i) {
+      ++done;
+      return std::vector<double>{double(i), 1.0 / double(i + 3)};
+    };
   }
 };
+
+std::filesystem::path only_file(const std::filesystem::path& folder) {
+  return std::filesystem::directory_iterator(folder)->path();
+}
+
+std::vector<double> values(const ResultStore& store, TaskId id) {
+  const auto found = store.find(id).value();
+  return {found.begin(), found.end()};
+}
 
 }  // namespace
 
@@ -40,23 +51,23 @@ TEST_CASE("a resumed sweep repeats no completed task") {
   stopped.threads = 2;
   stopped.stop = [&] { return work.done >= 7; };
   {
-    ResultStore store(f / "r.jsonl");
-    CHECK_THROWS_AS(sweep(store, work.tasks, stopped), Error);
+    ResultStore store(f / "r", "study");
+    CHECK_THROWS_AS(sweep(store, work.round, stopped), Error);
     CHECK(store.size() >= 7);
   }
-  // Killed while writing a line.
-  const std::string complete = read_file(f / "r.jsonl");
-  write_file(f / "r.jsonl", complete.substr(0, complete.size() - 5));
-  ResultStore store(f / "r.jsonl");
+  // Killed while writing a record.
+  const auto file = only_file(f / "r");
+  const std::string complete = read_file(file);
+  std::filesystem::remove(file);
+  write_file(partial_name(file), complete.substr(0, complete.size() - 5));
+  ResultStore store(f / "r", "study");
   const int before = work.done;
   const auto kept = int(store.size());
-  CHECK(sweep(store, work.tasks, {}));
+  CHECK(kept >= 6);
+  CHECK(sweep(store, work.round, {}));
   CHECK(work.done == before + 20 - kept);
-  for (int i = 0; i < 20; ++i) {
-    const auto* values = store.find(work.tasks[std::size_t(i)].key);
-    REQUIRE(values);
-    CHECK(*values == std::vector<double>{double(i), 1.0 / (i + 3)});  // bit-identical
-  }
+  for (std::uint64_t i = 0; i < 20; ++i)  // bit-identical
+    CHECK(values(store, {store.key(work.round), i}) == std::vector<double>{double(i), 1.0 / double(i + 3)});
 }
 
 TEST_CASE("shards run each task once, and together all tasks") {
@@ -66,34 +77,112 @@ TEST_CASE("shards run each task once, and together all tasks") {
   for (std::uint64_t k = 1; k <= 3; ++k) {
     SweepOptions o;
     o.shard = {k, 3};
-    ResultStore store(f / std::to_string(k));
-    CHECK_FALSE(sweep(store, work.tasks, o));
+    ResultStore store(f / std::to_string(k), "study");
+    CHECK_FALSE(sweep(store, work.round, o));
   }
   CHECK(work.done == 11);
-  ResultStore all(f / "all");
+  ResultStore all(f / "all", "study");
   for (const char* part : {"1", "2", "3"}) all.merge(f / part);
-  CHECK(sweep(all, work.tasks, {}));
+  CHECK(sweep(all, work.round, {}));
   CHECK(work.done == 11);
 }
 
-TEST_CASE("NaN is stored; an error of a task ends the sweep; damaged files are refused") {
+TEST_CASE("NaN is stored; an error of a task ends the sweep; damaged files and those of others are refused") {
   const test::TemporaryFolder folder("sweep");
   const auto& f = folder.path();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
   {
-    ResultStore store(f / "r");
-    store.add("a", {std::numeric_limits<double>::quiet_NaN(), 2});
+    ResultStore store(f / "r", "study");
+    store.add({1, 5}, std::vector<double>{nan, 2});
   }
-  const ResultStore store(f / "r");
-  REQUIRE(store.find("a"));
-  CHECK(std::isnan((*store.find("a"))[0]));
-  CHECK((*store.find("a"))[1] == 2);
+  const ResultStore store(f / "r", "study");
+  CHECK(std::isnan(values(store, {1, 5})[0]));
+  CHECK(values(store, {1, 5})[1] == 2);
+  CHECK_FALSE(store.find({1, 4}));
+  CHECK_FALSE(store.find({2, 5}));
 
-  ResultStore other(f / "s");
-  const std::vector<Task> bad{{"x", []() -> std::vector<double> { throw Error(Errc::usage, "x", "no"); }}};
+  ResultStore other(f / "s", "study");
+  Round bad{"bad", 1, [](std::uint64_t) -> std::vector<double> { throw Error(Errc::usage, "x", "no"); }};
   CHECK_THROWS_WITH(sweep(other, bad, {}), doctest::Contains("no"));
 
-  write_file(f / "t", "{\"task\":\"a\",\"values\":[1]}\ninvalid\n");
-  CHECK_THROWS_WITH(ResultStore(f / "t"), doctest::Contains("t:2"));
+  const auto file = only_file(f / "r");
+  CHECK_THROWS_WITH(ResultStore(f / "r", "another"), doctest::Contains("a different study"));
+  std::string content = read_file(file);
+  content[content.size() - 3] ^= 1;
+  write_file(file, content);
+  CHECK_THROWS_WITH(ResultStore(f / "r", "study"), doctest::Contains("is damaged at byte 64"));
+  std::string version = read_file(file);
+  version[40] = '9';
+  write_file(file, version);
+  CHECK_THROWS_WITH(ResultStore(f / "r", "study"), doctest::Contains("not a file of results"));
+}
+
+TEST_CASE(
+    "results are read while another process appends them; failures are counted until there is a result") {
+  const test::TemporaryFolder folder("sweep");
+  ResultStore store(folder.path(), "study");
+  ResultFile file(folder.path() / "a.results", "study");
+  const std::vector<double> one{1};
+  CHECK_FALSE(store.read_new());
+  file.add({{7, 0}, 0.5, one, {}});
+  file.add({{7, 1}, 0.5, {}, "broken"});
+  CHECK(store.read_new());
+  CHECK(values(store, {7, 0}) == one);
+  CHECK(store.failures(7).at(1).what == "broken");
+  CHECK(store.seconds_per_task(7) == doctest::Approx(0.5));
+  CHECK_FALSE(store.read_new());
+  file.add({{7, 1}, 0.5, one, {}});
+  file.complete();
+  CHECK(store.read_new());
+  CHECK(store.failures(7).empty());
+  CHECK_FALSE(store.read_new());
+}
+
+TEST_CASE("numbers of tasks as text") {
+  CHECK(number_list({1, 2, 3, 7, 9, 10}) == "1-3,7,9-10");
+  CHECK(number_list({}).empty());
+  CHECK(numbers_in("1-3,7,9-10") == std::vector<std::uint64_t>{1, 2, 3, 7, 9, 10});
+  for (const char* bad : {"", "0", "3-1", "1,", "a", "1-", "-2", "1-1000000000"}) {
+    INFO(bad);
+    CHECK_THROWS_WITH(numbers_in(bad), doctest::Contains("not a list of tasks"));
+  }
+}
+
+TEST_CASE("a planned study: numbers continue over rounds; tasks that always fail end it with their names") {
+  const test::TemporaryFolder folder("sweep");
+  const auto results = folder.path() / "results";
+  ResultStore store(results, "study");
+  Work work(3);
+  Round second = work.round;
+  second.description = "second";
+  second.labels = [](std::uint64_t i) { return std::vector<TaskLabel>{{"seed", std::to_string(i)}}; };
+  RoundPlanner planner(folder.path());
+  CHECK_FALSE(planner(work.round, store));
+  CHECK(planner.open_tasks() == std::vector<std::uint64_t>{1, 2, 3});
+  CHECK(sweep(store, work.round, {}));
+  RoundPlanner next(folder.path());
+  CHECK(next(work.round, store));
+  CHECK_FALSE(next(second, store));
+  CHECK(next.open_tasks() == std::vector<std::uint64_t>{4, 5, 6});
+  CHECK(planned_round(folder.path(), "study", 5).description == "second");
+  CHECK_THROWS_WITH(planned_round(folder.path(), "study", 7), doctest::Contains("task 7 is not planned"));
+  CHECK_THROWS_WITH(planned_round(folder.path(), "other", 5), doctest::Contains("a different study"));
+
+  const std::uint64_t key = store.key(second);
+  const std::vector<double> one{1};
+  ResultFile file(results / "a.results", "study");
+  for (int attempt = 0; attempt < kMostAttempts; ++attempt) file.add({{key, 1}, 0, {}, "no cells"});
+  file.add({{key, 0}, 0, one, {}});
+  store.read_new();
+  RoundPlanner open(folder.path());
+  open(work.round, store);
+  CHECK_FALSE(open(second, store));  // task 6 is open
+  CHECK(open.open_tasks() == std::vector<std::uint64_t>{6});
+  file.add({{key, 2}, 0, one, {}});
+  store.read_new();
+  RoundPlanner last(folder.path());
+  last(work.round, store);
+  CHECK_THROWS_WITH(last(second, store), doctest::Contains("task 5 (seed 1): no cells"));
 }
 
 TEST_CASE("study directory: resumed, neither mixed with another study nor overwritten") {
@@ -102,11 +191,11 @@ TEST_CASE("study directory: resumed, neither mixed with another study nor overwr
   const auto dir = f / "study";
   {
     StudyDirectory d(dir, "one", "again", false);
-    d.results().add("a", {1});
+    d.results().add({1, 2}, std::vector<double>{1});
   }
   {
     StudyDirectory d(dir, "one", "again", false);  // resumes after a kill
-    CHECK(d.results().find("a"));
+    CHECK(d.results().find({1, 2}));
     CHECK_THROWS_WITH(StudyDirectory(dir, "one", "again", false), doctest::Contains("process"));
     d.complete(nlohmann::ordered_json::object());
   }
@@ -115,9 +204,9 @@ TEST_CASE("study directory: resumed, neither mixed with another study nor overwr
   CHECK_NOTHROW(check_merge({dir}, "one"));
   CHECK_THROWS_WITH(check_merge({dir}, "two"), doctest::Contains("a different study"));
   CHECK_THROWS_WITH(check_merge({dir / "none"}, "one"), doctest::Contains("directory not found"));
-  CHECK(StudyDirectory(dir, "one", "again", true).results().find("a"));
+  CHECK(StudyDirectory(dir, "one", "again", true).results().find({1, 2}));
   StudyDirectory replaced(dir, "two", "again", true);
-  CHECK_FALSE(replaced.results().find("a"));
+  CHECK_FALSE(replaced.results().find({1, 2}));
   write_file(f / "mine.txt", "x");
   CHECK_THROWS_WITH(StudyDirectory(f, "one", "again", true), doctest::Contains("no study"));
   StudyDirectory third(f / "third", "three", "again", false);

@@ -136,13 +136,12 @@ Tested plan(const IdentifyStudy& study, const std::vector<ResponseVideo>& videos
             const Candidate& c, SimulationRound& round, std::size_t candidate) {
   Tested t;
   t.u = m.search->posterior({}, kPredictive, derived_seed(study.seed, SeedUse::best_model));
-  const Episode& episode = videos.front().episodes.front();
-  t.families = families_of(c, candidate_scenario(study, c, videos.front(), episode,
-                                                 t.u.colwise().mean().transpose(), exact_timing(episode))
-                                  .root);
+  const VectorXd at = t.u.colwise().mean().transpose();
+  t.families = families_at(study, videos, c, at);
   round.add(candidate, t.u, kNumber);
-  for (const ModelFamily& f : t.families)
-    if (f.drift_px_s == 0) round.add(candidate, t.u.topRows(kPairs), kNumber, &f);
+  for (std::size_t f = 0; f < t.families.size(); ++f)
+    if (t.families[f].drift_px_s == 0)
+      round.add(candidate, t.u.topRows(kPairs), kNumber, FamilyChoice{at, f});
   return t;
 }
 

@@ -1,4 +1,4 @@
-#include "study/identify/response_survey.h"
+#include "study/identify/response/response_survey.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,38 @@
+#include "study/engines/attempt_log.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace faba {
+namespace {
+
+// Text as a field of a CSV file.
+std::string field_text(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+  }
+  return out + "\"";
+}
+
+}  // namespace
+
+AttemptLog::AttemptLog(const std::filesystem::path& file, std::string engine) : engine_(std::move(engine)) {
+  std::error_code ec;
+  const auto size = std::filesystem::exists(file, ec) ? std::filesystem::file_size(file) : 0;
+  file_ = std::make_unique<OutputFile>(file, size);
+  if (size == 0) file_->append("time,engine,attempt,event,tasks,detail\n");
+}
+
+void AttemptLog::add(const std::string& attempt, std::string_view event, const std::string& tasks,
+                     const std::string& detail) {
+  const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  file_->append(fmt::format("{:%FT%TZ},{},{},{},{},{}\n", fmt::gmtime(now), engine_, attempt, event,
+                            field_text(tasks), field_text(detail)));
+}
+
+}  // namespace faba

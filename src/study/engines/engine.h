@@ -1,0 +1,59 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "study/engines/engine_settings.h"
+
+namespace faba {
+
+/// Tasks that one worker computes: one attempt.
+struct Attempt {
+  std::uint64_t id = 0;           ///< of this run of the command, from 1
+  std::string tasks;              ///< as number_list()
+  std::filesystem::path results;  ///< result file
+  std::filesystem::path log;      ///< messages of the worker
+};
+
+/// How an attempt ended. A worker that computed all of its tasks has renamed its result file, whatever is
+/// reported here.
+struct AttemptEnd {
+  std::uint64_t id = 0;
+  std::string how;  ///< "exit code 0", "signal 9", "is not in the queue any more"
+  int exit = -1;    ///< exit code; -1: unknown or killed
+};
+
+/// Where workers run. An engine starts the command of a worker, `faba study work`, and reports when workers
+/// end; it transports no results, which workers write to files.
+class Engine {
+ public:
+  virtual ~Engine() = default;
+  /// Number of workers that run at a time.
+  virtual unsigned slots() const = 0;
+  /// Whether attempts wait in a queue of the engine: then all tasks are submitted at once. Otherwise an
+  /// attempt is submitted when a worker is free.
+  virtual bool queues() const = 0;
+  /// Starts the workers of these attempts. False when the engine does not accept them at the moment.
+  virtual bool submit(std::span<const Attempt> attempts) = 0;
+  /// The attempts that ended since the last call.
+  virtual std::vector<AttemptEnd> ended() = 0;
+  /// Time between two calls of ended(), s.
+  virtual double period_s() const = 0;
+  /// Ends all workers.
+  virtual void cancel() = 0;
+  /// What hinders the engine at the moment, in a sentence; empty: nothing.
+  virtual std::string trouble() const { return {}; }
+};
+
+/// The command of a worker, without the tasks.
+struct WorkerCommand {
+  std::filesystem::path program;    ///< of faba, absolute
+  std::filesystem::path directory;  ///< of the study, absolute
+  std::string study_hash;
+  std::vector<std::string> words(const Attempt& attempt) const;
+};
+
+}  // namespace faba

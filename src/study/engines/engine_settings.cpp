@@ -1,0 +1,77 @@
+#include "study/engines/engine_settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/error.h"
+#include "core/toml.h"
+
+namespace faba {
+namespace {
+
+constexpr std::array kEngines = {"local", "parallel", "slurm", "dask"};
+
+}  // namespace
+
+Schema<EngineSettings> EngineSettings::schema() {
+  using E = EngineSettings;
+  return Schema<E>("engine", "Where the simulations of a study run")
+      .add(
+          "type", &E::type,
+          {.doc = "local: processes on this machine; parallel: GNU parallel; slurm: array jobs; dask: a Dask "
+                  "cluster",
+           .choices = {kEngines.begin(), kEngines.end()}})
+      .add(
+          "workers", &E::workers,
+          {.min = 0,
+           .max = 100000,
+           .doc =
+               "Number of workers; 0: all processors of the machine (local, dask without a scheduler), those "
+               "of the hosts (parallel) or of the scheduler (dask), 16 (slurm)"})
+      .add("scheduler", &E::scheduler,
+           {.doc = "dask: address of a running scheduler, such as tcp://node1:8786; default: workers on this "
+                   "machine"})
+      .add("hosts", &E::hosts,
+           {.doc = "parallel: hosts, as for its option --sshlogin, such as \"4/user@pc2\"; default: this "
+                   "machine"})
+      .add("partition", &E::partition, {.doc = "slurm: partition; default: that of the cluster"})
+      .add("account", &E::account, {.doc = "slurm: account"})
+      .add("time", &E::time, {.unit = "s", .min = 60, .max = 1e7, .doc = "slurm: time limit of a job"})
+      .add("options", &E::options, {.doc = "slurm: further options of sbatch, such as \"--mem=2G\""})
+      .add("environment", &E::environment,
+           {.doc = "Lines of shell before each worker, such as \"module load gcc\" (slurm, parallel)"})
+      .add("python", &E::python, {.doc = "dask: Python interpreter that has the package distributed"});
+}
+
+std::string engine_name(EngineType type) { return kEngines[std::size_t(type)]; }
+
+EngineSettings engine_settings(const std::string& engine, const std::vector<std::string>& options) {
+  Document d;
+  if (std::find(kEngines.begin(), kEngines.end(), engine) != kEngines.end()) {
+    d.name = "--engine";
+    d.root["engine"]["type"] = engine;
+  } else if (engine.ends_with(".toml")) {
+    d = read_toml(engine);
+  } else {
+    throw Error(
+        Errc::usage, "--engine",
+        fmt::format("unknown engine \"{}\"{}; it must be one of {}, or a TOML file with a table [engine]",
+                    engine, suggestion(engine, {kEngines.begin(), kEngines.end()}),
+                    fmt::join(kEngines, ", ")));
+  }
+  for (const std::string& option : options) {
+    const auto equals = option.find('=');
+    if (equals == std::string::npos)
+      throw Error(Errc::usage, "--engine-set",
+                  fmt::format("\"{}\" has no value; write KEY=VALUE, such as partition=short", option));
+    d.set("engine." + option.substr(0, equals), option.substr(equals + 1), "--engine-set");
+  }
+  const Node root(d);
+  if (!root.has("engine"))
+    throw Error(Errc::usage, engine, "has no table [engine]; write [engine] with type = \"slurm\"");
+  return EngineSettings::schema().parse(root.child("engine"));
+}
+
+}  // namespace faba

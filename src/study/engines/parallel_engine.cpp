@@ -1,0 +1,144 @@
+// GNU parallel: workers on this machine and on hosts that share the folder of the study.
+#include <fmt/format.h>
+#include <signal.h>
+
+#include <fstream>
+#include <map>
+
+#include "core/child.h"
+#include "core/error.h"
+#include "core/file.h"
+#include "core/threads/parallel.h"
+#include "study/engines/engines.h"
+#include "study/engines/process.h"
+#include "study/sweep/study_directory.h"
+
+namespace faba {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// One call of GNU parallel with the attempts of one submission.
+struct ParallelCall {
+  pid_t process = -1;
+  fs::path joblog;                 ///< one line for each attempt that ended
+  std::vector<std::uint64_t> ids;  ///< of the attempts, in their order
+  std::vector<bool> ended;
+};
+
+class ParallelEngine final : public Engine {
+ public:
+  ParallelEngine(EngineSettings settings, WorkerCommand worker)
+      : settings_(std::move(settings)), worker_(std::move(worker)) {
+    if (!program_exists("parallel"))
+      throw Error(Errc::usage, "--engine parallel",
+                  "the program parallel is not installed; install the package parallel (GNU parallel)");
+    slots_ = settings_.workers > 0
+                 ? unsigned(settings_.workers) * unsigned(std::max<std::size_t>(1, settings_.hosts.size()))
+             : settings_.hosts.empty() ? number_of_threads(0)
+                                       : slots_of_hosts();
+  }
+  ~ParallelEngine() override { ParallelEngine::cancel(); }
+
+  unsigned slots() const override { return slots_; }
+  bool queues() const override { return true; }
+  double period_s() const override { return 0.1; }
+
+  bool submit(std::span<const Attempt> attempts) override {
+    ParallelCall call;
+    const std::string name = attempts.front().results.stem().string() + "-parallel";
+    const fs::path jobs = worker_.directory / study_files::kJobs, list = jobs / (name + ".list");
+    call.joblog = jobs / (name + ".joblog");
+    std::string lines;
+    for (const Attempt& a : attempts) {
+      lines += fmt::format("{}\t{}\t{}\n", a.tasks, a.results.string(), a.log.string());
+      call.ids.push_back(a.id);
+    }
+    call.ended.resize(attempts.size());
+    write_file(list, lines);
+    call.process = start_process(words(list, call.joblog), {.log = jobs / (name + ".log")});
+    calls_.push_back(std::move(call));
+    return true;
+  }
+
+  std::vector<AttemptEnd> ended() override {
+    std::vector<AttemptEnd> ends;
+    for (ParallelCall& call : calls_) {
+      const bool over = end_of_process(call.process).has_value();
+      read_joblog(call, ends);
+      if (!over) continue;
+      for (std::size_t k = 0; k < call.ids.size(); ++k)
+        if (!call.ended[k]) ends.push_back({call.ids[k], "GNU parallel has ended", -1});
+      call.process = -1;
+    }
+    std::erase_if(calls_, [](const ParallelCall& c) { return c.process < 0; });
+    return ends;
+  }
+
+  // After a second SIGTERM, GNU parallel ends its jobs.
+  void cancel() override {
+    for (int times = 0; times < 2; ++times)
+      for (const ParallelCall& call : calls_) kill(call.process, SIGTERM);
+    for (const ParallelCall& call : calls_) end_child(call.process, 2);
+    calls_.clear();
+  }
+
+ private:
+  // "4/user@host" has four workers; a host without a number has one.
+  unsigned slots_of_hosts() const {
+    unsigned sum = 0;
+    for (const std::string& host : settings_.hosts) {
+      const auto slash = host.find('/');
+      sum += slash == std::string::npos ? 1 : unsigned(std::max(1, std::atoi(host.c_str())));
+    }
+    return sum;
+  }
+
+  std::vector<std::string> words(const fs::path& list, const fs::path& joblog) const {
+    std::string command;
+    for (const std::string& line : settings_.environment) command += line + "; ";
+    const Attempt pattern{0, "{1}", "{2}", "{3}"};
+    for (const std::string& word : worker_.words(pattern))
+      command += (word.starts_with("{") ? word : quoted(word)) + " ";
+    command += "2> {3}";
+    std::vector<std::string> w{"parallel",   "--no-notice",   "--colsep", "\t",
+                               "--joblog",   joblog.string(), "--wd",     fs::current_path().string(),
+                               "--arg-file", list.string()};
+    if (settings_.workers > 0 || settings_.hosts.empty())
+      w.insert(w.end(), {"--jobs", std::to_string(settings_.workers > 0 ? settings_.workers : int(slots_))});
+    for (const std::string& host : settings_.hosts) w.insert(w.end(), {"--sshlogin", host});
+    w.push_back(command);
+    return w;
+  }
+
+  // Columns: Seq, Host, Starttime, JobRuntime, Send, Receive, Exitval, Signal, Command.
+  static void read_joblog(ParallelCall& call, std::vector<AttemptEnd>& ends) {
+    std::ifstream in(call.joblog);
+    std::string line;
+    std::getline(in, line);
+    while (std::getline(in, line) && !in.eof()) {
+      unsigned long number = 0;
+      char host[256];
+      int exit = 0, signal = 0;
+      if (std::sscanf(line.c_str(), "%lu\t%255[^\t]\t%*s\t%*s\t%*s\t%*s\t%d\t%d", &number, host, &exit,
+                      &signal) != 4)
+        continue;
+      if (number < 1 || number > call.ids.size() || call.ended[number - 1]) continue;
+      call.ended[number - 1] = true;
+      ends.push_back({call.ids[number - 1], end_text(signal != 0 ? -signal : exit), signal != 0 ? -1 : exit});
+    }
+  }
+
+  EngineSettings settings_;
+  WorkerCommand worker_;
+  unsigned slots_ = 1;
+  std::vector<ParallelCall> calls_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> parallel_engine(const EngineSettings& settings, const WorkerCommand& worker) {
+  return std::make_unique<ParallelEngine>(settings, worker);
+}
+
+}  // namespace faba

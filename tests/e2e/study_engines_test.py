@@ -1,0 +1,308 @@
+#!/usr/bin/python3
+"""Studies on engines: `faba identify` and `faba compare-controllers` by plan, work and collect, and with --engine local, parallel,
+dask and slurm, give the files of one process byte by byte. With --kills, processes of each kind are killed in the middle, twice
+each. Engines whose packages are missing are skipped; the exit code is then 77.
+
+    study_engines_test.py --program build/faba [--kills] [--only NAME]..."""
+
+import argparse
+import json
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import slurm_cluster
+
+WORLD = """
+[arena]
+type = "box"
+size_px = [160, 120]
+[[swarm]]
+count = 40
+model = { type = "basic", max_speed = 4 }
+start = { type = "edge", direction = "180 deg" }
+"""
+FILM = """duration = "3.2 s"
+[scale]
+um_per_px = 1.2
+[microscope]
+cell_diameter = "2.5 um"
+[controller]
+type = "manual"
+field = ["69 uT", "0 T"]
+[[controller.segment]]
+at = "0.6 s"
+field = ["-69 uT", "0 T"]
+[record]
+as_seen = true
+lossless = true
+tracks = false
+""" + WORLD
+IDENTIFY = """boundary = "box"
+look = "positions"
+simulations = SIMULATIONS
+reversal = "0.6 s"
+direction = 0
+duration = "2.4 s"
+field_strength = "69 uT"
+legacy = true
+[[video]]
+file = "film"
+[[model]]
+type = "basic"
+free = { "swarm[0].model.max_speed" = [1, 12] }
+[[model]]
+type = "dipole"
+speed_sd = "10 um/s"
+free = { "swarm[0].model.speed" = ["10 um/s", "200 um/s"] }
+"""
+STEER = """duration = "DURATION"
+[controller]
+type = "fuzzy"
+[reference]
+type = "hold"
+setpoint_px = [80, 60]
+""" + WORLD
+CONTROLLERS = """scene = "steer.toml"
+seeds = SEEDS
+delays = [0, 2]
+[[controller]]
+type = "fuzzy"
+[[controller]]
+type = "proportional"
+"""
+OUTPUTS = ("identify.json", "identify.html", "best.toml", "background.png", "controllers.json", "controllers.csv", "report.html")
+VERB = {"identify": "identify", "controllers": "compare-controllers"}
+
+
+class Test:
+    def __init__(self, program, folder):
+        self.program, self.folder = str(program), pathlib.Path(folder)
+        self.failures, self.skipped = [], []
+
+    def check(self, good, what):
+        print(f"  {'ok' if good else 'FAILED'}: {what}", flush=True)
+        if not good:
+            self.failures.append(what)
+
+    def skip(self, what):
+        print(f"  SKIPPED: {what}", flush=True)
+        self.skipped.append(what)
+
+    def faba(self, *arguments, cwd=None):
+        return subprocess.run([self.program, *map(str, arguments)], capture_output=True, text=True, cwd=cwd or self.folder)
+
+    def start(self, *arguments):
+        return subprocess.Popen([self.program, *map(str, arguments)], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+
+    def write_studies(self, simulations, seeds, duration):
+        (self.folder / "film.toml").write_text(FILM)
+        (self.folder / "identify.toml").write_text(IDENTIFY.replace("SIMULATIONS", str(simulations)))
+        (self.folder / "steer.toml").write_text(STEER.replace("DURATION", duration))
+        (self.folder / "controllers.toml").write_text(CONTROLLERS.replace("SEEDS", str(seeds)))
+        done = self.faba("run", "film.toml", "--seed", 3, "--quiet", "--force", "--out", "film")
+        assert done.returncode == 0, done.stderr
+        for study, verb in VERB.items():
+            done = self.faba(verb, f"{study}.toml", "--quiet", "--force", "--out", f"{study}-one")
+            assert done.returncode == 0, done.stderr
+
+    def equal(self, study, out, what):
+        names = [n for n in OUTPUTS if (self.folder / f"{study}-one" / n).exists()]
+        differ = [n for n in names if not (self.folder / out / n).exists()
+                  or (self.folder / out / n).read_bytes() != (self.folder / f"{study}-one" / n).read_bytes()]
+        self.check(len(names) >= 3 and not differ, f"{what}: files equal those of one process {differ or ''}")
+
+    # --- plan, work, collect ---------------------------------------------------------------------------------------
+
+    def by_hand(self, study):
+        out = f"{study}-hand"
+        planned = json.loads(self.faba("study", "plan", f"{study}.toml", "--out", out, "--json").stdout)
+        rounds = tasks = 0
+        while not planned["complete"]:
+            rounds += 1
+            tasks += planned["open"]
+            done = self.faba("study", "work", out, "--tasks", planned["tasks"], "--results", f"{out}/results/{rounds}.results", "--threads", 2)
+            self.check(done.returncode == 0, f"work, round {rounds} {done.stderr}")
+            collected = self.faba("study", "collect", out, "--json")
+            planned = json.loads(collected.stdout)
+            if collected.returncode != (0 if planned["complete"] else 10):
+                self.check(False, f"exit code of collect: {collected.returncode} {collected.stderr}")
+                return
+        self.equal(study, out, f"plan, work, collect: {tasks} tasks in {rounds} rounds")
+        table = self.folder / f"{study}.csv"
+        self.faba("study", "export", out, "--out", table)
+        self.check(len(table.read_text().splitlines()) == tasks + 1, "export: one row for each task")
+        self.check(self.faba("study", "export", out, "--out", f"{study}.h5").returncode == 0, "export as HDF5")
+
+    def elsewhere(self):
+        """Parts computed in a copy of the folder under another path and with another spelling are used; parts of another study or
+        version are refused."""
+        copy = self.folder / "mounted/elsewhere"
+        self.faba("study", "plan", "controllers.toml", "--out", "parts")
+        shutil.copytree(self.folder, copy, ignore=shutil.ignore_patterns("mounted", "*-one", "*-hand"))
+        done = self.faba("study", "work", "../elsewhere/./parts", "--tasks", "1-100", "--results", "far.results", cwd=copy)
+        self.check(done.returncode == 0, f"work under another path {done.stderr}")
+        left = json.loads(self.faba("study", "collect", "parts", copy / "far.results", "--json").stdout)
+        total = left["open"] + 100
+        self.check(left["tasks"] == f"101-{total}", f"its results are used: open tasks are {left['tasks']}")
+        # Shards: the video has another path.
+        (copy / "film.toml").unlink()
+        self.faba("identify", "identify.toml", "--shard", "1/2", "--out", "part", "--quiet", cwd=copy)
+        counted = self.faba("identify", str(copy / "../elsewhere/identify.toml"), "--shard", "2/2", "--merge", str(copy / "part"), "--out", "other", "--json")
+        self.check(counted.returncode == 0, f"shards under two paths {counted.stderr}")
+        other = self.folder / "other.toml"
+        other.write_text((self.folder / "controllers.toml").read_text().replace("delays = [0, 2]", "delays = [1, 2]"))
+        self.faba("study", "plan", other, "--out", "parts2")
+        refused = self.faba("study", "collect", "parts2", copy / "far.results")
+        self.check(refused.returncode == 2 and "different study" in refused.stderr, f"another study is refused: {refused.stderr.strip()}")
+        self.check(not list((self.folder / "parts2/results").glob("far*")), "its file is not copied")
+        planned = self.folder / "parts2/study.json"
+        planned.write_text(re.sub(r'"version": "[^"]*"', '"version": "0.0.1"', planned.read_text()))
+        for arguments in (("work", "parts2", "--tasks", "1", "--results", "x.results"), ("collect", "parts2")):
+            refused = self.faba("study", *arguments)
+            self.check(refused.returncode == 2 and "0.0.1" in refused.stderr, f"another version is refused: {refused.stderr.strip()}")
+
+    # --- engines ---------------------------------------------------------------------------------------------------
+
+    def engine(self, name, *options):
+        for study, verb in VERB.items():
+            out = f"{study}-{name}"
+            begin = time.time()
+            done = self.faba(verb, f"{study}.toml", "--quiet", "--out", out, "--engine", name, *options)
+            self.check(done.returncode == 0, f"{name}, {study}: {time.time() - begin:.1f} s {done.stderr}")
+            self.equal(study, out, f"{name}, {study}")
+            self.check("submitted" in (self.folder / out / "attempts.csv").read_text(), f"{name}, {study}: attempts are logged")
+
+    def workers(self, out):
+        """Processes of workers of a study."""
+        return [p for p in slurm_cluster.processes()
+                if " study work " in slurm_cluster.command(p) and f"/{out} " in slurm_cluster.command(p)
+                and slurm_cluster.command(p).startswith(self.program)]
+
+    def wait_for_results(self, out, bytes_):
+        size = lambda: sum(f.stat().st_size for f in (self.folder / out / "results").glob("*")) if (self.folder / out / "results").exists() else 0
+        for _ in range(6000):
+            if size() > bytes_ and self.workers(out):
+                return
+            time.sleep(0.01)
+        raise RuntimeError(f"{out}: no results within a minute")
+
+    def kill_workers(self, name, *options):
+        """A worker is killed twice; then the command, twice, and it is started again."""
+        out = f"kill-{name}"
+        command = ("compare-controllers", "controllers.toml", "--quiet", "--out", out, "--engine", name, *options)
+        run = self.start(*command)
+        killed = 0
+        for size in (100, 20000):
+            self.wait_for_results(out, size)
+            for worker in self.workers(out)[:1]:
+                os.kill(worker, signal.SIGKILL)
+                killed += 1
+        code = run.wait()
+        self.check(code == 0 and killed == 2, f"{name}: {killed} workers killed, exit code {code}")
+        self.equal("controllers", out, f"{name}, workers killed")
+        self.check("left tasks" in (self.folder / out / "attempts.csv").read_text(), f"{name}: the log names the attempts that left tasks")
+        shutil.rmtree(self.folder / out)
+        for size in (100, 20000):
+            run = self.start(*command)
+            self.wait_for_results(out, size)
+            os.kill(run.pid, signal.SIGKILL)
+            run.wait()
+            if name in ("local", "dask"):
+                time.sleep(3 if name == "dask" else 0.5)
+                self.check(not self.workers(out), f"{name}: no worker outlives the command")
+        done = self.faba(*command)
+        self.check(done.returncode == 0, f"{name}: started again after two kills {done.stderr}")
+        self.equal("controllers", out, f"{name}, command killed")
+
+
+def run_slurm(test, kills):
+    why = slurm_cluster.missing()
+    if why:
+        return test.skip(f"slurm: {why}")
+    cluster = slurm_cluster.Cluster(test.folder / "slurm")
+    try:
+        test.engine("slurm", "--workers", 3)
+        if kills:
+            test.kill_workers("slurm", "--workers", 3)
+            kill_node(test, cluster)
+            kill_controller(test, cluster)
+    finally:
+        cluster.stop()
+
+
+def kill_node(test, cluster):
+    out = "kill-node"
+    run = test.start("compare-controllers", "controllers.toml", "--quiet", "--out", out, "--engine", "slurm", "--workers", 3)
+    for node, size in (("node1", 100), ("node2", 2000)):
+        test.wait_for_results(out, size)
+        cluster.kill_node(node)
+        cluster.start_node(node)
+    code = run.wait()
+    test.check(code == 0, f"slurm: two nodes killed, exit code {code}")
+    test.equal("controllers", out, "slurm, nodes killed")
+
+
+def kill_controller(test, cluster):
+    out = "kill-controller"
+    command = ("compare-controllers", "controllers.toml", "--quiet", "--out", out, "--engine", "slurm", "--workers", 3)
+    for size in (100, 2000):
+        run = test.start(*command)
+        test.wait_for_results(out, size)
+        cluster.kill_controller()
+        time.sleep(1)
+        run.send_signal(signal.SIGTERM)
+        run.wait()
+        cluster.start_controller()
+        time.sleep(1)
+        cluster.resume_nodes()
+    done = test.faba(*command)
+    test.check(done.returncode == 0, f"slurm: controller killed twice, command started again {done.stderr}")
+    test.equal("controllers", out, "slurm, controller killed")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--program", required=True, type=pathlib.Path)
+    parser.add_argument("--kills", action="store_true")
+    parser.add_argument("--only", action="append", default=[])
+    options = parser.parse_args()
+    wanted = lambda name: not options.only or name in options.only
+    with tempfile.TemporaryDirectory() as folder:
+        test = Test(options.program.resolve(), folder)
+        test.write_studies(150, 60, "3 s")
+        if wanted("hand"):
+            for study in VERB:
+                test.by_hand(study)
+            test.elsewhere()
+        if options.kills:  # long enough to be killed in the middle
+            test.write_studies(150, 400, "20 s")
+        for name, extra in (("local", ("--workers", 2)), ("parallel", ("--workers", 2)), ("dask", ("--workers", 3))):
+            if not wanted(name):
+                continue
+            if name == "parallel" and not shutil.which("parallel"):
+                test.skip("parallel: GNU parallel is not installed")
+                continue
+            if name == "dask" and subprocess.run(["/usr/bin/python3", "-c", "import distributed"], capture_output=True).returncode:
+                test.skip("dask: python3-distributed is not installed")
+                continue
+            test.engine(name, *extra)
+            if options.kills:
+                test.kill_workers(name, *extra)
+        if wanted("slurm"):
+            run_slurm(test, options.kills)
+    for what in test.failures:
+        print("FAILED:", what)
+    print(f"{len(test.failures)} failures, {len(test.skipped)} skipped")
+    sys.exit(1 if test.failures else 77 if test.skipped else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,141 @@
+// A study on an engine of the test, whose workers fail in every way.
+#include "study/engines/engine_run.h"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <map>
+#include <set>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "study/engines/chunk_size.h"
+#include "study/engines/engine_settings.h"
+#include "tests/temporary_folder.h"
+
+using namespace faba;
+
+namespace {
+
+/// Computes attempts when they are submitted. A task in `dies` ends its worker `times` times; a task in
+/// `fails` always fails.
+class TestEngine final : public Engine {
+ public:
+  TestEngine(std::uint64_t key, std::uint64_t first) : key_(key), first_(first) {}
+  std::map<std::uint64_t, int> dies;
+  std::set<std::uint64_t> fails;
+  int exit_of_all = 0;
+
+  unsigned slots() const override { return 2; }
+  bool queues() const override { return false; }
+  double period_s() const override { return 0.001; }
+  void cancel() override {}
+  bool submit(std::span<const Attempt> attempts) override {
+    for (const Attempt& a : attempts) ends_.push_back(run(a));
+    return true;
+  }
+  std::vector<AttemptEnd> ended() override { return std::exchange(ends_, {}); }
+
+ private:
+  AttemptEnd run(const Attempt& a) {
+    if (exit_of_all != 0) return {a.id, "exit code " + std::to_string(exit_of_all), exit_of_all};
+    ResultFile file(a.results, "study");
+    for (const std::uint64_t number : numbers_in(a.tasks)) {
+      if (dies.contains(number) && dies[number]-- > 0) return {a.id, "signal 9", -1};
+      const std::vector<double> values{double(number - first_)};
+      if (fails.contains(number))
+        file.add({{key_, number - first_}, 0.001, {}, "no cells"});
+      else
+        file.add({{key_, number - first_}, 0.001, values, {}});
+    }
+    file.complete();
+    return {a.id, "exit code 0", 0};
+  }
+  std::uint64_t key_, first_;
+  std::vector<AttemptEnd> ends_;
+};
+
+/// A round of 50 tasks in a folder.
+struct Study {
+  test::TemporaryFolder folder{"engine"};
+  ResultStore store{folder.path() / "results", "study"};
+  Round round{"tasks", 50, {}};
+  TestEngine tasks{store.key(round), 1};  ///< copied for each run
+  bool run() {
+    EngineRun::Reports reports{[](auto, auto) {}, [] { return false; }, [](const std::string&) {}};
+    EngineRun all(std::make_unique<TestEngine>(tasks), "test", folder.path(), std::move(reports));
+    return all(round, store);
+  }
+  std::string log() const { return read_file(folder.path() / "attempts.csv"); }
+};
+
+}  // namespace
+
+TEST_CASE("workers that die are replaced, and every task has its result") {
+  Study s;
+  s.tasks.dies = {{3, 1}, {17, 2}, {50, 2}};
+  CHECK(s.run());
+  for (std::uint64_t i = 0; i < 50; ++i) {
+    const auto values = s.store.find({s.store.key(s.round), i});
+    REQUIRE(values);
+    CHECK((*values)[0] == double(i));
+  }
+  CHECK(s.log().find("left tasks") != std::string::npos);
+  CHECK(s.log().find("signal 9") != std::string::npos);
+}
+
+TEST_CASE(
+    "a task that always fails or kills its worker ends the study with its number; all others are kept") {
+  Study s;
+  s.tasks.dies = {{20, 1000}};
+  s.tasks.fails = {31};
+  std::string message;
+  try {
+    s.run();
+  } catch (const Error& e) {
+    message = e.what();
+  }
+  CHECK_MESSAGE(message.find("2 of 50 tasks of this round failed 3 times") != std::string::npos, message);
+  CHECK_MESSAGE(message.find("task 20 (): the worker ended with signal 9") != std::string::npos, message);
+  CHECK_MESSAGE(message.find("task 31 (): no cells") != std::string::npos, message);
+  CHECK(s.store.size() == 48);
+  // The same command tries the failed tasks again, and no other.
+  s.tasks.dies.clear();
+  s.tasks.fails.clear();
+  CHECK(s.run());
+  CHECK(s.store.size() == 50);
+}
+
+TEST_CASE("an engine whose workers never give a result, or refuse the study, is an error") {
+  Study s;
+  s.tasks.exit_of_all = 127;
+  CHECK_THROWS_WITH(s.run(), doctest::Contains("the last 30 workers ended without a result"));
+  s.tasks.exit_of_all = 2;
+  CHECK_THROWS_WITH(s.run(), doctest::Contains("a worker refused the study"));
+}
+
+TEST_CASE("chunks take 10 to 60 s, less at the end, one task while the time is unknown") {
+  CHECK(ChunkSize{1000, 4, {}, false}.tasks() == 1);
+  CHECK(ChunkSize{1000, 4, {}, true}.tasks() == 20);
+  CHECK(ChunkSize{1000000, 4, 0.05, false}.tasks() == 1200);  // 60 s
+  CHECK(ChunkSize{2000, 2, 0.05, false}.tasks() == 500);      // 25 s
+  CHECK(ChunkSize{40, 2, 0.05, false}.tasks() == 20);         // 1 s
+  CHECK(ChunkSize{10, 2, 100, false}.tasks() == 1);
+  CHECK(ChunkSize{2000, 3, 0.05, true}.tasks() == 166);
+}
+
+TEST_CASE("settings of an engine: name or file, and single values") {
+  CHECK(engine_settings("slurm", {"partition=short", "time=2 h"}).time == doctest::Approx(7200));
+  CHECK(engine_settings("slurm", {"partition=short"}).partition == "short");
+  CHECK_THROWS_WITH(engine_settings("slrum", {}), doctest::Contains("did you mean \"slurm\""));
+  CHECK_THROWS_WITH(engine_settings("slurm", {"partitoin=a"}),
+                    doctest::Contains("did you mean \"partition\""));
+  CHECK_THROWS_WITH(engine_settings("slurm", {"partition"}), doctest::Contains("has no value"));
+  const test::TemporaryFolder folder("engine");
+  write_file(
+      folder.path() / "c.toml",
+      "[engine]\ntype = \"dask\"\nscheduler = \"tcp://a:8786\"\nenvironment = [\"module load gcc\"]\n");
+  const EngineSettings s = engine_settings((folder.path() / "c.toml").string(), {});
+  CHECK(s.type == EngineType::dask);
+  CHECK(s.environment == std::vector<std::string>{"module load gcc"});
+}
