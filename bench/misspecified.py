@@ -4,8 +4,8 @@
 Each experiment is a rendered drop with a swarm of dipoles of 120 um/s in six field segments, with one property that the candidates basic,
 adapted and dipole do not have (see CASES), or with none. Sampled at random are the number of cells, camera noise, size and side of the
 drop, and the contrast; the study file states the field strength and the scale. A misspecified experiment passes if the 90 % interval of
-the speed of dipole contains 120 um/s (of two populations: their mean, 88 um/s), or the evidence is not "clear", or a warning names the aspect. A well-specified experiment passes
-if there is no warning. Writes misspecified.md and misspecified.json to bench/results/.
+the speed of dipole contains 120 um/s (of two populations: their mean, 88 um/s), or the evidence is not "clear", or a warning names the
+aspect. A well-specified experiment passes if there is no warning. Writes misspecified.md and misspecified.json to bench/results/.
 
     bench/misspecified.py [--program build/faba] [--seeds 10] [--first 1] [--well 20] [--cases motile,tumbling] [--simulations 300]
                           [--keep DIR] [--out bench/results]

@@ -51,8 +51,6 @@ const std::string& program();
 void set_program(const char* name);
 /// Prints a line to standard error; errors are ignored.
 void print_stderr(const std::string& line);
-/// Quotes a word for a shell if necessary.
-std::string shell_word(const std::string& word);
 
 /// Becomes true on Ctrl-C, SIGTERM and SIGHUP; a second signal ends the program immediately. The first call
 /// installs the signal handlers: without a call, the first signal ends the program.

@@ -40,8 +40,8 @@ std::string command_of(const CLI::App& app, const std::vector<std::string>& argu
   return command;
 }
 
-// Freed memory of pictures stays with the process: to return it and request it again for every frame takes a
-// tenth of the time of a measurement, because the kernel clears each page.
+// Freed memory of pictures stays with the process: to return it and request it again for every frame, or for
+// every simulation of a study, takes a tenth of the time, because the kernel clears each page.
 void keep_freed_memory() {
 #ifdef __GLIBC__
   mallopt(M_MMAP_THRESHOLD, 32 << 20);  // bytes; the largest permitted value

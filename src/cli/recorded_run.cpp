@@ -5,6 +5,7 @@
 #include "app/recording/session.h"
 #include "cli/command_line.h"
 #include "cli/progress.h"
+#include "core/child.h"
 #include "core/error.h"
 #include "study/pages/quality_output.h"
 #include "study/pages/run_report.h"

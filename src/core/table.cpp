@@ -142,4 +142,11 @@ Table read_table(const std::filesystem::path& path, LastLine last_line) {
   return Table(file, std::move(names), std::move(columns), cut, header);
 }
 
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of("\",\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + "\"";
+}
+
 }  // namespace faba

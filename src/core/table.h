@@ -56,4 +56,7 @@ enum class LastLine {
 /// a directory, a field that is not a number, and a line with more or fewer fields than the header.
 Table read_table(const std::filesystem::path& path, LastLine last_line = LastLine::keep);
 
+/// A text as a field of a CSV file: in quotation marks if necessary (RFC 4180).
+std::string csv_field(const std::string& text);
+
 }  // namespace faba

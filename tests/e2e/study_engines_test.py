@@ -140,6 +140,17 @@ class Test:
         self.faba("study", "export", out, "--out", table)
         self.check(len(table.read_text().splitlines()) == tasks + 1, "export: one row for each task")
         self.check(self.faba("study", "export", out, "--out", f"{study}.h5").returncode == 0, "export as HDF5")
+        one = self.folder / f"{study}-one.csv"
+        self.faba("study", "export", f"{study}-one", "--out", one)
+        self.check(one.exists() and one.read_bytes() == table.read_bytes(), "export: the same table after the study of one process")
+
+    def refused(self):
+        """Options without their engine, and names that do not exist, are refused before anything is computed."""
+        for words, expected in ((("--workers", "2"), "--engine"), (("--engine", "local", "--scheduler", "tcp://x:1"), "--engine dask"),
+                                (("--engine", "local", "--sshlogin", "pc2"), "--engine parallel"), (("--engine", "slurn"), "slurm"),
+                                (("--engine", "local", "--engine-set", "partitio=x"), "partition")):
+            done = self.faba("compare-controllers", "controllers.toml", "--out", "refused", *words)
+            self.check(done.returncode == 2 and expected in done.stderr and not (self.folder / "refused").exists(), f"refused: {done.stderr.strip()}")
 
     def elsewhere(self):
         """Parts computed in a copy of the folder under another path and with another spelling are used; parts of another study or
@@ -152,11 +163,17 @@ class Test:
         left = json.loads(self.faba("study", "collect", "parts", copy / "far.results", "--json").stdout)
         total = left["open"] + 100
         self.check(left["tasks"] == f"101-{total}", f"its results are used: open tasks are {left['tasks']}")
-        # Shards: the video has another path.
-        (copy / "film.toml").unlink()
-        self.faba("identify", "identify.toml", "--shard", "1/2", "--out", "part", "--quiet", cwd=copy)
-        counted = self.faba("identify", str(copy / "../elsewhere/identify.toml"), "--shard", "2/2", "--merge", str(copy / "part"), "--out", "other", "--json")
-        self.check(counted.returncode == 0, f"shards under two paths {counted.stderr}")
+        # The video has another path, too.
+        planned = json.loads(self.faba("study", "plan", "identify.toml", "--out", "video-parts", "--json").stdout)
+        done = self.faba("study", "plan", "../elsewhere/./identify.toml", "--out", "mine", cwd=copy)
+        self.check(done.returncode == 0, f"plan under another path {done.stderr}")
+        self.faba("study", "work", "mine", "--tasks", "1-20", "--results", "far-video.results", cwd=copy)
+        left = json.loads(self.faba("study", "collect", "video-parts", copy / "far-video.results", "--json").stdout)
+        self.check(left["tasks"] == f"21-{planned['open']}", f"results of a video under another path are used: open tasks are {left['tasks']}")
+        # A worker does not read the video.
+        (copy / "film/video.avi").unlink()
+        done = self.faba("study", "work", "mine", "--tasks", "21-30", "--results", "more.results", cwd=copy)
+        self.check(done.returncode == 0, f"work without the video {done.stderr}")
         other = self.folder / "other.toml"
         other.write_text((self.folder / "controllers.toml").read_text().replace("delays = [0, 2]", "delays = [1, 2]"))
         self.faba("study", "plan", other, "--out", "parts2")
@@ -215,8 +232,8 @@ class Test:
             self.wait_for_results(out, size)
             os.kill(run.pid, signal.SIGKILL)
             run.wait()
-            if name in ("local", "dask"):
-                time.sleep(3 if name == "dask" else 0.5)
+            if name != "slurm":
+                time.sleep(0.5 if name == "local" else 3)
                 self.check(not self.workers(out), f"{name}: no worker outlives the command")
         done = self.faba(*command)
         self.check(done.returncode == 0, f"{name}: started again after two kills {done.stderr}")
@@ -230,12 +247,23 @@ def run_slurm(test, kills):
     cluster = slurm_cluster.Cluster(test.folder / "slurm")
     try:
         test.engine("slurm", "--workers", 3)
+        twice(test)
         if kills:
             test.kill_workers("slurm", "--workers", 3)
             kill_node(test, cluster)
             kill_controller(test, cluster)
     finally:
         cluster.stop()
+
+
+def twice(test):
+    """One study in two directories at the same time: neither command cancels the jobs of the other."""
+    outs = ("twice-1", "twice-2")
+    runs = [test.start("compare-controllers", "controllers.toml", "--quiet", "--out", out, "--engine", "slurm", "--workers", 3) for out in outs]
+    for out, run in zip(outs, runs):
+        test.check(run.wait() == 0, f"slurm, {out}")
+        test.equal("controllers", out, f"slurm, {out}")
+        test.check("left tasks" not in (test.folder / out / "attempts.csv").read_text(), f"slurm, {out}: no attempt left tasks")
 
 
 def kill_node(test, cluster):
@@ -282,6 +310,7 @@ def main():
             for study in VERB:
                 test.by_hand(study)
             test.elsewhere()
+            test.refused()
         if options.kills:  # long enough to be killed in the middle
             test.write_studies(150, 400, "20 s")
         for name, extra in (("local", ("--workers", 2)), ("parallel", ("--workers", 2)), ("dask", ("--workers", 3))):

@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "core/error.h"
 #include "study/engines/engines.h"
 
 namespace faba::cli {
@@ -27,10 +28,25 @@ void add_engine_options(CLI::App* v, EngineOptions& o) {
 
 EngineSettings settings_of(const EngineOptions& o) {
   EngineSettings s = engine_settings(o.engine, o.set);
+  if (!o.scheduler.empty() && s.type != EngineType::dask)
+    throw Error(Errc::usage, "--scheduler", "requires --engine dask");
+  if (!o.hosts.empty() && s.type != EngineType::parallel)
+    throw Error(Errc::usage, "--sshlogin", "requires --engine parallel");
   if (o.workers > 0) s.workers = o.workers;
   if (!o.scheduler.empty()) s.scheduler = o.scheduler;
   if (!o.hosts.empty()) s.hosts = o.hosts;
   return s;
+}
+
+void check_engine(const EngineOptions& o) {
+  if (!o.engine.empty()) {
+    (void)settings_of(o);
+    return;
+  }
+  for (const auto& [option, given] :
+       {std::pair{"--engine-set", !o.set.empty()}, std::pair{"--workers", o.workers > 0},
+        std::pair{"--scheduler", !o.scheduler.empty()}, std::pair{"--sshlogin", !o.hosts.empty()}})
+    if (given) throw Error(Errc::usage, option, "requires --engine, such as --engine local");
 }
 
 EngineStart::EngineStart(EngineOptions options, std::filesystem::path dir, std::string study_hash,

@@ -22,8 +22,11 @@ struct EngineOptions {
 /// Adds --engine, --engine-set, --workers, --scheduler and --sshlogin.
 void add_engine_options(CLI::App* v, EngineOptions& o);
 
-/// The settings of the options. Throws Error(usage).
+/// The settings of the options, of which --engine is given. Throws Error(usage), also for an option that the
+/// engine does not have.
 EngineSettings settings_of(const EngineOptions& o);
+/// Throws Error(usage) for options that settings_of() refuses, and for those that need --engine without it.
+void check_engine(const EngineOptions& o);
 
 /// Starts the engine of the options for the first round that is computed, with one progress bar.
 class EngineStart {

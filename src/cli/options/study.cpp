@@ -8,9 +8,11 @@
 #include <chrono>
 #include <thread>
 
+#include "core/child.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "study/pages/provenance_output.h"
+#include "study/sweep/round_planner.h"
 
 #include <nlohmann/json.hpp>
 
@@ -76,8 +78,7 @@ void report_partial(const StudyOptions& v, const Common& c, const std::filesyste
   else if (!c.quiet)
     fmt::print(
         "part {} of this round is complete; its results are in {}. When the other parts are complete, run "
-        "the "
-        "command again with --merge and their directories, until it reports that the study is complete\n",
+        "the command again with --merge and their directories, until it reports that the study is complete\n",
         v.shard, dir.string());
 }
 
@@ -101,6 +102,7 @@ void add_study_options(CLI::App* v, StudyOptions& o) {
 }
 
 SweepOptions sweep_options(const StudyOptions& v) {
+  check_engine(v.engine);
   SweepOptions o;
   o.threads = v.threads;
   o.shard = shard_of(v.shard);
@@ -116,6 +118,10 @@ std::optional<std::filesystem::path> run_study(StudyJob& job, const StudyOptions
   if (report_if_complete(v, job, c)) return {};
   StudyDirectory dir = open_study(v, job);
   options.measured = dir.path() / study_files::kMeasured;
+  RoundPlanner planner(dir.path());  // `faba study export` reads the rounds
+  options.completed = [&planner](const Round& round, const ResultStore& store) {
+    planner.plan(round, store, true);
+  };
   if (!job.run(dir, std::move(options), c)) return dir.path();
   job.print(dir, c);
   return {};

@@ -28,7 +28,7 @@ struct StudyOptions {
 /// Adds the study file, --out, --shard, --merge, --threads, --force, and the options of engines.
 void add_study_options(CLI::App* v, StudyOptions& o);
 
-/// Threads, shard and stop of a study. Throws Error(usage, "--shard").
+/// Threads, shard and stop of a study. Throws Error(usage), also for wrong options of engines.
 SweepOptions sweep_options(const StudyOptions& v);
 
 /// Runs a study in its directory, --out or runs/NAME, up to the end: the only function that does so. Prints

@@ -7,6 +7,7 @@
 #include "cli/output_file.h"
 #include "cli/provenance.h"
 #include "cli/quality_text.h"
+#include "core/child.h"
 #include "core/error.h"
 #include "study/drop/drop_warnings.h"
 #include "study/pages/drop_report.h"

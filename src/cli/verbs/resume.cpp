@@ -7,6 +7,7 @@
 #include "cli/command_line.h"
 #include "cli/progress.h"
 #include "cli/recorded_run.h"
+#include "core/child.h"
 
 namespace faba::cli {
 namespace {

@@ -3,24 +3,11 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 
+#include "core/table.h"
+
 namespace faba {
-namespace {
-
-// Text as a field of a CSV file.
-std::string field_text(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;
-  }
-  return out + "\"";
-}
-
-}  // namespace
-
 AttemptLog::AttemptLog(const std::filesystem::path& file, std::string engine) : engine_(std::move(engine)) {
   std::error_code ec;
   const auto size = std::filesystem::exists(file, ec) ? std::filesystem::file_size(file) : 0;
@@ -32,7 +19,7 @@ void AttemptLog::add(const std::string& attempt, std::string_view event, const s
                      const std::string& detail) {
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   file_->append(fmt::format("{:%FT%TZ},{},{},{},{},{}\n", fmt::gmtime(now), engine_, attempt, event,
-                            field_text(tasks), field_text(detail)));
+                            csv_field(tasks), csv_field(detail)));
 }
 
 }  // namespace faba

@@ -57,9 +57,9 @@ EngineSettings engine_settings(const std::string& engine, const std::vector<std:
   } else {
     throw Error(
         Errc::usage, "--engine",
-        fmt::format("unknown engine \"{}\"{}; it must be one of {}, or a TOML file with a table [engine]",
-                    engine, suggestion(engine, {kEngines.begin(), kEngines.end()}),
-                    fmt::join(kEngines, ", ")));
+        fmt::format("unknown engine \"{}\"; it must be one of {}, or a TOML file with a table [engine]{}",
+                    engine, fmt::join(kEngines, ", "),
+                    suggestion(engine, {kEngines.begin(), kEngines.end()})));
   }
   for (const std::string& option : options) {
     const auto equals = option.find('=');

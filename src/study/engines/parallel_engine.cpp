@@ -30,9 +30,11 @@ class ParallelEngine final : public Engine {
  public:
   ParallelEngine(EngineSettings settings, WorkerCommand worker)
       : settings_(std::move(settings)), worker_(std::move(worker)) {
-    if (!program_exists("parallel"))
-      throw Error(Errc::usage, "--engine parallel",
-                  "the program parallel is not installed; install the package parallel (GNU parallel)");
+    for (const auto& [program, package] :
+         {std::pair{"parallel", "parallel (GNU parallel)"}, std::pair{"setpriv", "util-linux"}})
+      if (!program_exists(program))
+        throw Error(Errc::usage, "--engine parallel",
+                    fmt::format("the program {} is not installed; install the package {}", program, package));
     slots_ = settings_.workers > 0
                  ? unsigned(settings_.workers) * unsigned(std::max<std::size_t>(1, settings_.hosts.size()))
              : settings_.hosts.empty() ? number_of_threads(0)
@@ -99,11 +101,22 @@ class ParallelEngine final : public Engine {
     for (const std::string& line : settings_.environment) command += line + "; ";
     const Attempt pattern{0, "{1}", "{2}", "{3}"};
     for (const std::string& word : worker_.words(pattern))
-      command += (word.starts_with("{") ? word : quoted(word)) + " ";
+      command += (word.starts_with("{") ? word : shell_word(word)) + " ";
     command += "2> {3}";
-    std::vector<std::string> w{"parallel",   "--no-notice",   "--colsep", "\t",
-                               "--joblog",   joblog.string(), "--wd",     fs::current_path().string(),
-                               "--arg-file", list.string()};
+    // setpriv: without this command, GNU parallel ends its jobs and itself.
+    std::vector<std::string> w{"setpriv",
+                               "--pdeathsig",
+                               "TERM",
+                               "parallel",
+                               "--no-notice",
+                               "--colsep",
+                               "\t",
+                               "--joblog",
+                               joblog.string(),
+                               "--wd",
+                               fs::current_path().string(),
+                               "--arg-file",
+                               list.string()};
     if (settings_.workers > 0 || settings_.hosts.empty())
       w.insert(w.end(), {"--jobs", std::to_string(settings_.workers > 0 ? settings_.workers : int(slots_))});
     for (const std::string& host : settings_.hosts) w.insert(w.end(), {"--sshlogin", host});

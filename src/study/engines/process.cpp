@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "core/child.h"
 #include "core/error.h"
 
 extern char** environ;
@@ -59,7 +60,7 @@ std::string end_text(int end) {
 
 CommandOutput run_command(const std::vector<std::string>& words, bool with_errors) {
   std::string line;
-  for (const std::string& w : words) line += quoted(w) + " ";
+  for (const std::string& w : words) line += shell_word(w) + " ";
   line += with_errors ? "2>&1" : "2> /dev/null";
   FILE* pipe = popen((line + " < /dev/null").c_str(), "re");
   if (!pipe) return {127, ""};
@@ -72,13 +73,7 @@ CommandOutput run_command(const std::vector<std::string>& words, bool with_error
 }
 
 bool program_exists(const std::string& name) {
-  return run_command({"sh", "-c", "command -v " + quoted(name)}).exit == 0;
-}
-
-std::string quoted(const std::string& word) {
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
+  return run_command({"sh", "-c", "command -v " + shell_word(name)}).exit == 0;
 }
 
 }  // namespace faba

@@ -35,7 +35,5 @@ CommandOutput run_command(const std::vector<std::string>& words, bool with_error
 
 /// Whether a program is found by PATH.
 bool program_exists(const std::string& name);
-/// Quotes a word for a shell.
-std::string quoted(const std::string& word);
 
 }  // namespace faba

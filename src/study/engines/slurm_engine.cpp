@@ -7,8 +7,10 @@
 #include <map>
 #include <sstream>
 
+#include "core/child.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/hash.h"
 #include "core/monotonic.h"
 #include "study/engines/engines.h"
 #include "study/engines/process.h"
@@ -34,7 +36,7 @@ struct SlurmTask {
 class SlurmEngine final : public Engine {
  public:
   SlurmEngine(EngineSettings settings, WorkerCommand worker)
-      : settings_(std::move(settings)), worker_(std::move(worker)), name_("faba-" + worker_.study_hash) {
+      : settings_(std::move(settings)), worker_(std::move(worker)), name_(job_name(worker_)) {
     for (const char* program : {"sbatch", "squeue", "scancel", "scontrol"})
       if (!program_exists(program))
         throw Error(Errc::usage, "--engine slurm",
@@ -90,6 +92,14 @@ class SlurmEngine final : public Engine {
   }
 
  private:
+  // Of the study in its directory: the same study in another directory has other jobs.
+  static std::string job_name(const WorkerCommand& worker) {
+    Hash h;
+    h.text(worker.study_hash);
+    h.text(worker.directory.string());
+    return "faba-" + h.hex();
+  }
+
   // A complete result file shows the end before squeue does.
   static AttemptEnd end_of(const std::string& job, SlurmTask& t, const CommandOutput& squeue) {
     std::error_code ec;
@@ -163,10 +173,10 @@ class SlurmEngine final : public Engine {
     s += fmt::format(
         "IFS=$'\\t' read -r tasks results log < <(sed -n \"${{SLURM_ARRAY_TASK_ID}}p\" {})\n"
         "exec",
-        quoted(list.string()));
+        shell_word(list.string()));
     const Attempt pattern{0, "$tasks", "$results", "$log"};
     for (const std::string& word : worker_.words(pattern))
-      s += " " + (word.starts_with("$") ? "\"" + word + "\"" : quoted(word));
+      s += " " + (word.starts_with("$") ? "\"" + word + "\"" : shell_word(word));
     return s + " 2>> \"$log\"\n";
   }
 

@@ -56,7 +56,8 @@ void check_head(const FileHead& h, const std::filesystem::path& file, const std:
   if (text_of(h.kind, sizeof h.kind) != FileHead().kind ||
       h.checksum != checksum_of(&h, sizeof h - sizeof h.checksum))
     throw Error(Errc::input, file.string(),
-                "is not a file of results of this version of faba; delete it to compute its results again");
+                "is not a file of results of this version of faba; if it is in the directory of a study, "
+                "delete it to compute its results again");
   if (text_of(h.version, sizeof h.version) != FABA_VERSION)
     throw Error(Errc::usage, file.string(),
                 fmt::format("was computed by faba {}, this is faba {}; use one version for all parts of a "

@@ -39,6 +39,15 @@ std::map<std::string, fs::path> result_files(const fs::path& folder) {
 
 }  // namespace
 
+std::uint64_t round_key(const std::string& study_hash, const Round& round) {
+  Hash h;
+  h.text(FABA_VERSION);
+  h.text(study_hash);
+  h.value(round.size);
+  h.text(round.description);
+  return h.result();
+}
+
 ResultStore::ResultStore(fs::path folder, std::string study_hash)
     : folder_(std::move(folder)), study_hash_(std::move(study_hash)) {
   read_new();
@@ -50,15 +59,6 @@ ResultStore::~ResultStore() {
     own_->complete();
   } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the records in the .part file count as well
   }
-}
-
-std::uint64_t ResultStore::key(const Round& round) const {
-  Hash h;
-  h.text(FABA_VERSION);
-  h.text(study_hash_);
-  h.value(round.size);
-  h.text(round.description);
-  return h.result();
 }
 
 std::optional<std::span<const double>> ResultStore::find(TaskId id) const {

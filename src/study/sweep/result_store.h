@@ -14,6 +14,10 @@
 
 namespace faba {
 
+/// Key of a round: hash of the version of the program, the study and the description of the round. It does
+/// not depend on paths, because the hash of the study does not.
+std::uint64_t round_key(const std::string& study_hash, const Round& round);
+
 /// The results of the tasks of a study: those in the result files of a folder, which other processes may be
 /// writing, and those that this process adds, in a result file of its own. Memory: 16 bytes per task and 8
 /// per value.
@@ -24,9 +28,7 @@ class ResultStore {
   ResultStore(std::filesystem::path folder, std::string study_hash);
   ~ResultStore();
 
-  /// Key of a round: hash of the version of the program, the study and the description of the round. It does
-  /// not depend on paths, because the hash of the study does not.
-  std::uint64_t key(const Round& round) const;
+  std::uint64_t key(const Round& round) const { return round_key(study_hash_, round); }
   /// The result of a task; empty if the store has no result of it. Valid as long as the store.
   std::optional<std::span<const double>> find(TaskId id) const;
   /// Stores a result; an existing result is not changed. `seconds`: computing time. Several threads may call

@@ -10,19 +10,13 @@
 
 #include "core/file.h"
 #include "core/h5/h5.h"
+#include "core/table.h"
 
 namespace faba {
 namespace {
 
 constexpr std::uint64_t kRowsPerChunk = 1024;
 constexpr std::size_t kFlush = 1 << 20;  // bytes of CSV
-
-std::string csv_text(const std::string& text) {
-  if (text.find_first_of("\",\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + "\"";
-}
 
 const TaskLabel* label_named(const std::vector<TaskLabel>& labels, const std::string& name) {
   const auto it =
@@ -68,15 +62,15 @@ void ResultTable::write_csv(const std::filesystem::path& file) const {
   const std::filesystem::path temporary = temporary_name(file);
   OutputFile out(temporary);
   std::string text = "task,round";
-  for (const Label& l : labels_) text += "," + csv_text(l.name);
-  for (const std::string& v : values_) text += "," + csv_text(v);
+  for (const Label& l : labels_) text += "," + csv_field(l.name);
+  for (const std::string& v : values_) text += "," + csv_field(v);
   text += '\n';
   each_row([&](const Row& row) {
     text += fmt::format("{},{}", row.task, row.round);
     for (const Label& l : labels_) {
       const TaskLabel* label = label_named(row.labels, l.name);
       text += ',';
-      if (label) text += label->number ? fmt::format("{}", *label->number) : csv_text(label->text);
+      if (label) text += label->number ? fmt::format("{}", *label->number) : csv_field(label->text);
     }
     for (std::size_t k = 0; k < values_.size(); ++k) {
       text += ',';

@@ -78,6 +78,8 @@ PlannedRound planned_round(const fs::path& dir, const std::string& study_hash, s
     if (r.contains(number)) return std::move(r);
     planned = r.first + r.size - 1;
   }
+  if (planned == 0)
+    throw Error(Errc::usage, dir.string(), "has no planned tasks; run `faba study plan` with the study file");
   throw Error(
       Errc::usage, "--tasks",
       fmt::format("task {} is not planned; {} has tasks 1 to {}; run `faba study collect` to plan the "

@@ -1,7 +1,5 @@
 #include "study/sweep/sweep.h"
 
-#include <malloc.h>
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -11,16 +9,6 @@
 #include "core/threads/parallel.h"
 
 namespace faba {
-namespace {
-
-// Tasks allocate and free memory for frames thousands of times. Returning it to the system each time would
-// cost more than the tasks, because the system clears every page.
-void keep_freed_memory() {
-  mallopt(M_MMAP_THRESHOLD, 64 << 20);
-  mallopt(M_TRIM_THRESHOLD, 256 << 20);
-}
-
-}  // namespace
 
 Error study_stopped(const std::string& where) {
   return {Errc::interrupted, where,
@@ -36,7 +24,6 @@ std::vector<std::uint64_t> missing_tasks(const ResultStore& store, const Round& 
 }
 
 bool sweep(ResultStore& store, const Round& round, const SweepOptions& o) {
-  keep_freed_memory();
   if (o.elsewhere) return o.elsewhere(round, store);
   const std::uint64_t key = store.key(round);
   std::vector<std::uint64_t> todo = missing_tasks(store, round);
@@ -60,7 +47,9 @@ bool sweep(ResultStore& store, const Round& round, const SweepOptions& o) {
     if (o.stop()) stopped = true;
   });
   if (done < shard_tasks) throw study_stopped();
-  return of_others == 0;
+  if (of_others > 0) return false;
+  o.completed(round, store);
+  return true;
 }
 
 }  // namespace faba

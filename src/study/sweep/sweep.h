@@ -25,6 +25,8 @@ struct SweepOptions {
   std::filesystem::path measured = {};
   std::function<void(std::uint64_t done, std::uint64_t total)> progress = [](auto, auto) {};
   std::function<bool()> stop = [] { return false; };  ///< checked between tasks
+  /// Called for each round whose results are complete, unless `elsewhere` is set.
+  std::function<void(const Round&, const ResultStore&)> completed = [](const auto&, const auto&) {};
   /// Computes the missing results of a round in other processes; called for every round, also for one that is
   /// complete. Returns whether all results are in the store. Empty: the threads of this process compute them.
   std::function<bool(const Round&, ResultStore&)> elsewhere = {};

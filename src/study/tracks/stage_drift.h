@@ -35,8 +35,8 @@ struct StageDrift {
 
 /// Finds the motion of the stage from the tracks of all objects. Objects that are fixed to the stage keep
 /// their distances to each other within the localisation error, while swimming cells and diffusing particles
-/// do not: a swarm that swims in one direction is not taken for a drift when there are five stationary objects,
-/// and when its cells differ. Needs tracks with at least 16 detections. Memory: 2 million points.
+/// do not: a swarm that swims in one direction is not taken for a drift when there are five stationary
+/// objects, and when its cells differ. Needs tracks with at least 16 detections. Memory: 2 million points.
 class DriftSurvey {
  public:
   /// `frame_s`: time between frames, s.

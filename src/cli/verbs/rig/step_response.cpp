@@ -9,6 +9,7 @@
 #include "cli/command_line.h"
 #include "cli/options/bench.h"
 #include "cli/progress.h"
+#include "core/child.h"
 #include "core/error.h"
 #include "study/pages/run_report.h"
 #include "study/plot/markup.h"

@@ -7,6 +7,7 @@
 #include "cli/output_file.h"
 #include "cli/study_job.h"
 #include "core/counted.h"
+#include "core/error.h"
 #include "study/sweep/result_table.h"
 
 namespace faba::cli {
@@ -26,6 +27,13 @@ int study_export(const ExportVerb& v, const Common& c) {
     return job->round(v.dir / study_files::kMeasured, p.description);
   };
   const ResultTable table(store, planned_rounds(v.dir, stored.hash), round_of, job->value_names());
+  if (table.rows() == 0)
+    throw Error(Errc::input, v.dir.string(),
+                "has no results of a planned or complete round; compute the study first");
+  if (table.rows() < store.size() && !c.quiet)
+    print_stderr(fmt::format("faba: note: {} of a round that is not complete {} not in the table",
+                             counted(std::uint64_t(store.size() - table.rows()), "result"),
+                             store.size() - table.rows() == 1 ? "is" : "are"));
   if (v.out.extension() == ".csv")
     table.write_csv(v.out);
   else

@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command_line.h"
-#include "cli/options/video_part.h"
 #include "cli/progress.h"
 #include "cli/study_job.h"
 #include "core/counted.h"
@@ -127,11 +126,10 @@ int study_work(const WorkVerb& v, const Common& c) {
   const std::vector<Work> all = planned_work(v, *job);
   std::uint64_t total = 0;
   for (const Work& work : all) total += work.tasks.size();
-  const ResultStore keys({}, job->hash());
   ResultFile file(free_file(v.results), job->hash());
   Progress bar("tasks", !c.quiet && !c.json);
   Worker worker(file, bar, total);
-  for (const Work& work : all) worker.run(work, keys.key(work.round), v.threads);
+  for (const Work& work : all) worker.run(work, round_key(job->hash(), work.round), v.threads);
   bar.clear();
   file.complete();
   if (worker.done() < total)
