@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::int32_t kGranted = -1;
 constexpr std::size_t kAgentsAtOnce = 1024;  // their sites fit into the L1 cache
+constexpr unsigned kRegionShift = 20;        // sites of a region: their bits take 0.4 MB in decide()
 constexpr std::size_t kWords = 2;            // of a block of sites: 128 sites
 constexpr unsigned kSiteShift = 7;
 constexpr std::size_t kFlags = sizeof(std::uint64_t);  // blocks that are skipped at once
@@ -21,19 +22,7 @@ constexpr std::size_t kSmall = 4096;  // agents for which threads do not pay
 constexpr unsigned kMostParts = 8;    // each has three bits per site
 constexpr int kSweeps = 8;            // of follow()
 
-// Calls use(i, from, to) for the agents [begin, end), where from and to are their sites.
-template <class Use>
-void each_move(const Grid& grid, std::span<const float> x, std::span<const float> y,
-               std::span<const float> to_x, std::span<const float> to_y, std::size_t begin, std::size_t end,
-               Use&& use) {
-  std::array<std::int32_t, kAgentsAtOnce> from, to;
-  for (std::size_t first = begin; first < end; first += kAgentsAtOnce) {
-    const std::size_t n = std::min(kAgentsAtOnce, end - first);
-    find_sites(grid, x.subspan(first, n), y.subspan(first, n), from.data());
-    find_sites(grid, to_x.subspan(first, n), to_y.subspan(first, n), to.data());
-    for (std::size_t k = 0; k < n; ++k) use(std::uint32_t(first + k), from[k], to[k]);
-  }
-}
+std::size_t word_of(std::int32_t site) { return std::size_t(site) >> 6; }
 
 }  // namespace
 
@@ -52,14 +41,17 @@ void TwoPhase::resolve(std::span<const float> x, std::span<const float> y, std::
     if (parts_used_ == 1) return job(std::size_t{0}, blocks_);
     pool.for_blocks(blocks_, kBlocksAtOnce, job);
   };
-  each_part([&](Part& p) { mark(x, y, to_x, to_y, p); });
+  each_part([&](Part& p) {
+    sort(x, y, to_x, to_y, p);
+    mark(p);
+  });
   each_block([&](std::size_t first, std::size_t end) { grant(taken, first, end); });
-  each_part([&](Part& p) { decide(x, y, to_x, to_y, p); });
+  each_part([&](Part& p) { decide(p); });
   settle(key);
   each_block([&](std::size_t first, std::size_t end) { update(taken, first, end); });
   if (follows) follow(taken, key);
   each_part([&](Part& p) {
-    for (const Wish& w : std::span(p.refused).first(p.refusals)) {
+    for (const Wish& w : p.refused()) {
       if (w.to == kGranted) continue;
       to_x[w.agent] = x[w.agent];
       to_y[w.agent] = y[w.agent];
@@ -72,16 +64,17 @@ void TwoPhase::prepare(std::size_t agents, std::size_t words, unsigned parts) {
   blocks_ = (words / (kWords * kFlags) + 1) * kFlags;
   parts_.resize(std::max<std::size_t>(parts_.size(), parts));
   parts_used_ = parts;
-  for (Sites* s : {&granted_, &wanted_}) s->resize_words(words);
+  free_.resize(words);
   before_.resize(words);
   for (std::size_t k = 0; k < parts; ++k) {
     Part& p = parts_[k];
     p.begin = agents * k / parts;
     p.end = agents * (k + 1) / parts;
-    // One more than the agents: decide() writes each wish to the ends of both lists.
-    p.contested.resize(p.end - p.begin + 1);
-    p.refused.resize(p.end - p.begin + 1);
-    for (Sites* s : {&p.once, &p.more, &p.left}) s->resize_words(words);
+    p.buckets.resize((words * 64 >> kRegionShift) + 1);
+    p.wishes.resize(p.end - p.begin);
+    p.contested.resize(p.end - p.begin + 1);  // decide() writes each wish to the end
+    p.requests.resize(words);
+    p.left.resize_words(words);
     p.used.resize(blocks_);
   }
 }
@@ -102,50 +95,82 @@ void TwoPhase::each_used_word(std::size_t first_block, std::size_t end_block, Us
   }
 }
 
-// An agent that stays on its site marks no bit.
-void TwoPhase::mark(std::span<const float> x, std::span<const float> y, std::span<const float> to_x,
+// Without branches, which would often be mispredicted: an agent that stays on its site is written as well,
+// and overwritten by the next one of its bucket, which has an element for each agent.
+void TwoPhase::sort(std::span<const float> x, std::span<const float> y, std::span<const float> to_x,
                     std::span<const float> to_y, Part& part) const {
+  std::array<std::int32_t, kAgentsAtOnce> from, to;
+  const auto each_block = [&](auto&& use) {
+    for (std::size_t first = part.begin; first < part.end; first += kAgentsAtOnce)
+      use(first, std::min(kAgentsAtOnce, part.end - first));
+  };
+  std::fill(part.buckets.begin(), part.buckets.end(), Bucket{});
+  if (part.buckets.size() > 1)
+    each_block([&](std::size_t first, std::size_t n) {
+      find_sites(grid_, x.subspan(first, n), y.subspan(first, n), from.data());
+      for (std::size_t k = 0; k < n; ++k) ++part.buckets[std::size_t(from[k]) >> kRegionShift].end;
+    });
+  std::size_t begin = 0;
+  for (Bucket& b : part.buckets) {
+    const std::size_t size = b.end;
+    b = {begin, begin};
+    begin += size;
+  }
+  Bucket* const buckets = part.buckets.data();
+  Wish* const wishes = part.wishes.data();
+  each_block([&](std::size_t first, std::size_t n) {
+    find_sites(grid_, x.subspan(first, n), y.subspan(first, n), from.data());
+    find_sites(grid_, to_x.subspan(first, n), to_y.subspan(first, n), to.data());
+    for (std::size_t k = 0; k < n; ++k) {
+      std::size_t& end = buckets[std::size_t(from[k]) >> kRegionShift].end;
+      wishes[end] = {std::uint32_t(first + k), from[k], to[k]};
+      end += std::size_t{from[k] != to[k]};
+    }
+  });
+}
+
+void TwoPhase::mark(Part& part) {
   std::uint8_t* const used = part.used.data();
-  each_move(grid_, x, y, to_x, to_y, part.begin, part.end,
-            [&](std::uint32_t, std::int32_t from, std::int32_t to) {
-              const std::uint64_t bit = std::uint64_t{from != to} << (to & 63);
-              std::uint64_t& once = part.once.word(to);
-              part.more.word(to) |= once & bit;
-              once |= bit;
-              used[from >> kSiteShift] = 1;
-              used[to >> kSiteShift] = 1;
-            });
+  Requests* const requests = part.requests.data();
+  for (const Bucket& b : part.buckets)
+    for (const Wish& w : std::span(part.wishes).subspan(b.begin, b.end - b.begin)) {
+      Requests& r = requests[word_of(w.to)];
+      r.more |= r.once & Sites::bit(w.to);
+      r.once |= Sites::bit(w.to);
+      used[w.from >> kSiteShift] = 1;
+      used[w.to >> kSiteShift] = 1;
+    }
 }
 
 void TwoPhase::grant(const Sites& taken, std::size_t first_block, std::size_t end_block) {
   each_used_word(first_block, end_block, [&](std::size_t w) {
     std::uint64_t once = 0, more = 0;
     for (std::size_t k = 0; k < parts_used_; ++k) {
-      const std::uint64_t of_part = parts_[k].once.words()[w];
-      more |= parts_[k].more.words()[w] | (once & of_part);
-      once |= of_part;
+      const Requests& r = parts_[k].requests[w];
+      more |= r.more | (once & r.once);
+      once |= r.once;
     }
     const std::uint64_t open = ~taken.words()[w];
-    granted_.words()[w] = once & ~more & open;
-    wanted_.words()[w] = more & open;
+    free_[w] = {once & ~more & open, more & open};
   });
 }
 
-// No branches, which would often be mispredicted: each wish is written to both lists, of which at most one
-// advances.
-void TwoPhase::decide(std::span<const float> x, std::span<const float> y, std::span<const float> to_x,
-                      std::span<const float> to_y, Part& part) const {
-  Wish *const contested = part.contested.data(), *const refused = part.refused.data();
+// Without branches: each wish is written to both lists, of which at most one advances. The list of the
+// refused ones is in the place of wishes that have been read.
+void TwoPhase::decide(Part& part) const {
+  Wish *const contested = part.contested.data(), *const refused = part.wishes.data();
+  const Free* const free = free_.data();
   std::size_t contests = 0, refusals = 0;
-  each_move(grid_, x, y, to_x, to_y, part.begin, part.end,
-            [&](std::uint32_t agent, std::int32_t from, std::int32_t to) {
-              const std::uint64_t moves = from != to, granted = granted_.word(to) >> (to & 63) & moves,
-                                  wanted = wanted_.word(to) >> (to & 63) & moves;
-              part.left.word(from) |= granted << (from & 63);
-              contested[contests] = refused[refusals] = {agent, from, to};
-              contests += wanted;
-              refusals += moves & ~(granted | wanted);
-            });
+  for (const Bucket& b : part.buckets)
+    for (std::size_t i = b.begin; i < b.end; ++i) {
+      const Wish w = part.wishes[i];
+      const Free& f = free[word_of(w.to)];
+      const std::uint64_t granted = f.granted >> (w.to & 63) & 1, wanted = f.wanted >> (w.to & 63) & 1;
+      part.left.word(w.from) |= granted << (w.from & 63);
+      contested[contests] = refused[refusals] = w;
+      contests += wanted;
+      refusals += 1 - (granted | wanted);
+    }
   part.contests = contests;
   part.refusals = refusals;
 }
@@ -156,13 +181,13 @@ void TwoPhase::settle(std::uint64_t key) {
   if (std::none_of(parts_.begin(), parts_.begin() + std::ptrdiff_t(parts_used_), contested)) return;
   std::uint32_t sites = 0;
   each_used_word(0, blocks_, [&](std::size_t w) {
-    if (wanted_.words()[w] == 0) return;  // popcount is a call
+    if (free_[w].wanted == 0) return;  // popcount is a call
     before_[w] = sites;
-    sites += std::uint32_t(std::popcount(wanted_.words()[w]));
+    sites += std::uint32_t(std::popcount(free_[w].wanted));
   });
   const auto rank = [&](std::int32_t site) {
-    const std::uint64_t smaller = wanted_.word(site) & (Sites::bit(site) - 1);
-    return std::size_t(before_[std::size_t(site) >> 6]) + std::size_t(std::popcount(smaller));
+    const std::uint64_t smaller = free_[word_of(site)].wanted & (Sites::bit(site) - 1);
+    return std::size_t(before_[word_of(site)]) + std::size_t(std::popcount(smaller));
   };
   best_.assign(sites, std::numeric_limits<std::uint64_t>::max());
   winner_.resize(sites);
@@ -178,7 +203,7 @@ void TwoPhase::settle(std::uint64_t key) {
     for (const Wish& w : std::span(p.contested).first(p.contests)) {
       const std::uint64_t wins = winner_[rank(w.to)] == w.agent;
       p.left.word(w.from) |= wins << (w.from & 63);
-      p.refused[p.refusals] = w;
+      p.wishes[p.refusals] = w;
       p.refusals += 1 - wins;
     }
 }
@@ -189,10 +214,11 @@ void TwoPhase::update(Sites& taken, std::size_t first_block, std::size_t end_blo
     std::uint64_t left = 0;
     for (Part& p : std::span(parts_).first(parts_used_)) {
       left |= p.left.words()[w];
-      for (Sites* s : {&p.once, &p.more, &p.left}) s->words()[w] = 0;
+      p.requests[w] = {};
+      p.left.words()[w] = 0;
     }
-    taken.words()[w] = (taken.words()[w] & ~left) | granted_.words()[w] | wanted_.words()[w];
-    granted_.words()[w] = wanted_.words()[w] = 0;
+    taken.words()[w] = (taken.words()[w] & ~left) | free_[w].granted | free_[w].wanted;
+    free_[w] = {};
   });
   for (Part& p : std::span(parts_).first(parts_used_))
     std::fill(&p.used[first_block], &p.used[first_block] + (end_block - first_block), std::uint8_t{0});
@@ -203,7 +229,7 @@ void TwoPhase::update(Sites& taken, std::size_t first_block, std::size_t end_blo
 void TwoPhase::follow(Sites& taken, std::uint64_t key) {
   std::vector<Wish*> waiting, winners;
   for (Part& p : std::span(parts_).first(parts_used_))
-    for (Wish& w : std::span(p.refused).first(p.refusals)) waiting.push_back(&w);
+    for (Wish& w : p.refused()) waiting.push_back(&w);
   std::sort(waiting.begin(), waiting.end(), [key](const Wish* a, const Wish* b) {
     return a->to != b->to ? a->to < b->to : priority(key, a->to, a->agent) < priority(key, b->to, b->agent);
   });

@@ -15,6 +15,9 @@ namespace faba {
 /// once and more than once; a free site that one agent requests is granted to it; only the wishes for the
 /// others are compared; granted agents leave their sites at the end. Blocks of sites that no agent leaves or
 /// requests are skipped. Between two calls no bit is set.
+///
+/// The bitmaps of a large arena do not fit into the nearer caches, and agents are in no spatial order: each
+/// thread first sorts its wishes by regions of sites whose bitmaps do fit.
 class TwoPhase {
  public:
   explicit TwoPhase(const Grid& grid) : grid_(grid) {}
@@ -33,24 +36,39 @@ class TwoPhase {
     std::uint32_t agent;
     std::int32_t from, to;  ///< `to` is kGranted for moves granted by follow()
   };
+  /// Bits of the same 64 sites, side by side: one access fetches both.
+  struct Requests {
+    std::uint64_t once = 0, more = 0;  ///< sites that are requested at least once, more than once
+  };
+  struct Free {
+    std::uint64_t granted = 0, wanted = 0;  ///< free sites with one request, with several
+  };
+  /// The wishes for moves from a region of sites: elements of Part::wishes.
+  struct Bucket {
+    std::size_t begin = 0, end = 0;
+  };
   /// The wishes of a part of the agents.
   struct Part {
     std::size_t begin = 0, end = 0;  ///< agents
-    Sites once, more;                ///< sites that are requested at least once, more than once
-    Sites left;                      ///< sites that granted agents leave
-    std::vector<std::uint8_t> used;  ///< 1 for blocks of sites from or to which an agent moves
-    std::vector<Wish> contested, refused;
+    std::vector<Bucket> buckets;
+    /// Sorted into buckets by sort(); decide() moves the refused ones to the front.
+    std::vector<Wish> wishes;
+    std::vector<Wish> contested;
     std::size_t contests = 0, refusals = 0;  ///< used elements of the lists
+    std::vector<Requests> requests;          ///< of each word of sites
+    Sites left;                              ///< sites that granted agents leave
+    std::vector<std::uint8_t> used;          ///< 1 for blocks of sites from or to which an agent moves
+    std::span<Wish> refused() { return std::span(wishes).first(refusals); }
   };
   /// Calls use(word) for all words in used blocks of [first_block, end_block).
   template <class Use>
   void each_used_word(std::size_t first_block, std::size_t end_block, Use&& use) const;
   void prepare(std::size_t agents, std::size_t words, unsigned parts);
-  void mark(std::span<const float> x, std::span<const float> y, std::span<const float> to_x,
+  void sort(std::span<const float> x, std::span<const float> y, std::span<const float> to_x,
             std::span<const float> to_y, Part& part) const;
+  static void mark(Part& part);
   void grant(const Sites& taken, std::size_t first_block, std::size_t end_block);
-  void decide(std::span<const float> x, std::span<const float> y, std::span<const float> to_x,
-              std::span<const float> to_y, Part& part) const;
+  void decide(Part& part) const;
   void settle(std::uint64_t key);
   void update(Sites& taken, std::size_t first_block, std::size_t end_block);
   void follow(Sites& taken, std::uint64_t key);
@@ -59,8 +77,8 @@ class TwoPhase {
   std::vector<Part> parts_;
   std::size_t parts_used_ = 0;
   std::size_t words_ = 0, blocks_ = 0;  ///< of the bitmaps
-  Sites granted_, wanted_;              ///< free sites with one request, with several
-  /// Of the sites in wanted_, in order: agent with the smallest priority so far. Their number before each
+  std::vector<Free> free_;              ///< of each word of sites
+  /// Of the wanted sites, in order: agent with the smallest priority so far. Their number before each
   /// word.
   std::vector<std::uint64_t> best_;
   std::vector<std::uint32_t> winner_, before_;
