@@ -38,10 +38,10 @@ std::size_t index_of(int displacement) {
   return std::size_t(i);
 }
 
-/// A band-passed picture, and its pixels above the noise.
+/// A band-passed picture, and the pixels of its objects.
 struct Sparse {
-  GrayF band;  ///< 0 below the threshold
-  std::vector<SparsePixel> pixels;
+  GrayF band;                       ///< 0 below the threshold
+  std::vector<SparsePixel> pixels;  ///< above the threshold, with the value 1
 };
 
 Sparse sparse_of(const GrayF& objects, double size_px, double noise) {
@@ -55,7 +55,7 @@ Sparse sparse_of(const GrayF& objects, double size_px, double noise) {
       const std::size_t i = std::size_t(r) * std::size_t(s.band.width) + std::size_t(c);
       const float v = s.band.px[i] - wide.px[i];
       s.band.px[i] = std::fabs(v) > least ? v : 0.0F;
-      if (s.band.px[i] != 0) s.pixels.push_back({c, r, v});
+      if (s.band.px[i] > 0) s.pixels.push_back({c, r, 1});
     }
   return s;
 }
@@ -68,7 +68,8 @@ Sparse noise_picture(const ResponseFrames& frames) {
   return sparse_of(noise, frames.object_px(), frames.noise());
 }
 
-/// Sums of products of two pictures against the displacement between the pixels, projected on a direction.
+/// Sums of the second picture over the objects of the first one against the displacement between the pixels,
+/// projected on a direction.
 class Correlator {
  public:
   explicit Correlator(double direction_deg)
@@ -107,8 +108,8 @@ class Correlator {
 /// Sums over the pairs of a block.
 struct PairBlock {
   Profile next{}, self{};                 ///< of pictures with later ones and with themselves
-  std::array<double, kRadius> leaving{};  ///< energy of pixels by the distance to the border in the direction
-  double energy = 0;
+  std::array<double, kRadius> leaving{};  ///< mass of pixels by the distance to the border in the direction
+  double mass = 0;
 
   void add(const PairBlock& o, double sign) {
     for (std::size_t i = 0; i < next.size(); ++i) {
@@ -116,25 +117,25 @@ struct PairBlock {
       self[i] += sign * o.self[i];
     }
     for (std::size_t i = 0; i < leaving.size(); ++i) leaving[i] += sign * o.leaving[i];
-    energy += sign * o.energy;
+    mass += sign * o.mass;
   }
   /// Fraction of the objects that is still in the picture after a displacement.
   double remaining(double shift) const {
     double lost = 0;
     for (std::size_t i = 0; i < leaving.size() && double(i) < shift; ++i) lost += leaving[i];
-    return energy > 0 ? 1 - lost / energy : 1;
+    return mass > 0 ? 1 - lost / mass : 1;
   }
 };
 
-void add_energy(PairBlock& b, const Sparse& s, Vec2 along) {
+void add_mass(PairBlock& b, const Sparse& s, Vec2 along) {
   for (const SparsePixel& p : s.pixels) {
-    const double e = double(p.value) * double(p.value);
+    const auto m = double(s.band.at(p.col, p.row));
     const double right = along.x > 0 ? s.band.width - 1 - p.col : p.col;
     const double down = along.y > 0 ? s.band.height - 1 - p.row : p.row;
     const double distance =
         std::min(right / std::max(std::fabs(along.x), 1e-9), down / std::max(std::fabs(along.y), 1e-9));
-    b.energy += e;
-    if (distance < kRadius) b.leaving[std::size_t(distance)] += e;
+    b.mass += m;
+    if (distance < kRadius) b.leaving[std::size_t(distance)] += m;
   }
 }
 
@@ -238,7 +239,7 @@ std::vector<PairBlock> blocks_of(const std::vector<Sparse>& pictures, const std:
       b.next[i] += next[k][i];
       b.self[i] += self[k][i];
     }
-    add_energy(b, pictures[k], correlate.along());
+    add_mass(b, pictures[k], correlate.along());
   }
   return blocks;
 }
@@ -299,7 +300,7 @@ std::optional<CommonDisplacement> common_displacement(const ResponseFrames& fram
     const std::vector<PairBlock> blocks = blocks_of(pictures, self, gap, correlate, pool);
     PairBlock all;
     for (const PairBlock& b : blocks) all.add(b, 1);
-    if (!(all.energy > 0)) return {};
+    if (!(all.mass > 0)) return {};
     const ShiftFit fit = fit_of(all, size, 1);
     const bool longer = fit.shift < kShiftSizes * size && 2 * double(gap) * frame_s <= kLongestGap &&
                         pictures.size() >= 2 * gap + kLeastFrames;

@@ -1,0 +1,91 @@
+// Responding fraction and speed at the frame rate of the thesis, from rendered videos with known truth.
+#include "study/motion/response.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tests/rendered_video.h"
+#include "tests/temporary_folder.h"
+#include "tests/vision/rendered_cells.h"
+
+using namespace faba;
+
+namespace {
+
+constexpr double kReversal = 1;  // s
+
+/// Straight paths on a torus around the view, so that the number of cells in view is constant. Cells that
+/// respond swim to the left before the reversal and to the right after it, others in random directions.
+RenderedVideo swarm(int count, double responding, double speed_px_s, std::uint64_t seed) {
+  struct Swimmer {
+    Vec2 start, velocity;
+    bool responds;
+  };
+  const double margin = 40;
+  RenderedVideo v;
+  v.frames = 45;
+  v.seed = seed;
+  v.microscope.cell_diameter = 2.5e-6;
+  cells::Dice dice(seed);
+  std::vector<Swimmer> all;
+  for (int i = 0; i < count; ++i) {
+    const double speed = speed_px_s * (1 + 0.24 * dice.normal()), angle = 2 * M_PI * dice.uniform();
+    const Vec2 start{(v.width + 2 * margin) * dice.uniform(), (v.height + 2 * margin) * dice.uniform()};
+    const bool responds = i < responding * count;
+    all.push_back(
+        {start, responds ? Vec2{speed, 0} : speed * Vec2{std::cos(angle), std::sin(angle)}, responds});
+  }
+  v.cells = [all, v, margin](double t) {
+    std::vector<CameraCell> out;
+    for (const Swimmer& s : all) {
+      const double path = s.responds ? std::fabs(t - kReversal) : t;
+      const auto wrapped = [&](double x, double size) {
+        return x - (size + 2 * margin) * std::floor(x / (size + 2 * margin)) - margin;
+      };
+      out.push_back({float(wrapped(s.start.x + path * s.velocity.x, v.width)),
+                     float(wrapped(s.start.y + path * s.velocity.y, v.height))});
+    }
+    return out;
+  };
+  return v;
+}
+
+std::optional<Response> measured(const RenderedVideo& v) {
+  const test::TemporaryFolder folder("response");
+  write_rendered(v, folder.path() / "v.avi");
+  ResponseJob job;
+  job.video = folder.path() / "v.avi";
+  job.reversal_s = kReversal;
+  job.direction_deg = 0;
+  job.frame_s = 1 / v.fps;
+  job.threads = 1;
+  return measure_response(job);
+}
+
+}  // namespace
+
+// 186 um/s at 0.92 um per px and 15 frames per second.
+TEST_CASE("response: fraction and speed of cells that move by 13 px between frames") {
+  for (const double fraction : {0.5, 0.8}) {
+    const double speed = 202;
+    const auto r = measured(swarm(200, fraction, speed, 3));
+    REQUIRE(r);
+    CHECK(r->responds);
+    REQUIRE(r->flow);
+    CHECK_FALSE(r->flow->valid());
+    REQUIRE(r->fraction);
+    CHECK(std::fabs(r->fraction->value - fraction) < 0.1);
+    REQUIRE(r->speed_px_s);
+    CHECK(std::fabs(r->speed_px_s->value / speed - 1) < 0.1);
+  }
+}
+
+TEST_CASE("response: none of cells that swim in random directions") {
+  const auto r = measured(swarm(200, 0, 202, 4));
+  REQUIRE(r);
+  CHECK_FALSE(r->responds);
+  REQUIRE(r->fraction);
+  CHECK(r->fraction->value == 0);
+  CHECK_FALSE(r->speed_px_s);
+}
