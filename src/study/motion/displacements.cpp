@@ -68,8 +68,8 @@ Sparse noise_picture(const ResponseFrames& frames) {
   return sparse_of(noise, frames.object_px(), frames.noise());
 }
 
-/// Sums of the second picture over the objects of the first one against the displacement between the pixels,
-/// projected on a direction.
+/// Sums of a picture over the objects of another one against the displacement between the pixels, projected on
+/// a direction.
 class Correlator {
  public:
   explicit Correlator(double direction_deg)
@@ -80,8 +80,18 @@ class Correlator {
   }
   Vec2 along() const { return along_; }
 
-  /// Several threads may call it at the same time.
+  /// From the first picture to the second: the mean of the second one over the objects of the first and of the
+  /// first one over the objects of the second. Several threads may call it at the same time.
   Profile between(const Sparse& a, const Sparse& b) const {
+    const Profile forward = one_way(a, b), backward = &a == &b ? forward : one_way(b, a);
+    Profile both{};
+    for (std::size_t i = 0; i < both.size(); ++i)
+      both[i] = 0.5 * (forward[i] + backward[both.size() - 1 - i]);
+    return both;
+  }
+
+ private:
+  Profile one_way(const Sparse& a, const Sparse& b) const {
     const CorrelationSums sums = window_.sums(a.pixels, b.band);
     Profile profile{};
     for (int dy = -kRadius; dy <= kRadius; ++dy)
@@ -94,8 +104,6 @@ class Correlator {
       }
     return profile;
   }
-
- private:
   bool inside(int dx, int dy) const {
     const double s = dx * along_.x + dy * along_.y, across = dy * along_.x - dx * along_.y;
     return std::fabs(s) <= kRadius - 1 && std::fabs(across) <= kAcrossMotion;
@@ -108,34 +116,37 @@ class Correlator {
 /// Sums over the pairs of a block.
 struct PairBlock {
   Profile next{}, self{};                 ///< of pictures with later ones and with themselves
-  std::array<double, kRadius> leaving{};  ///< mass of pixels by the distance to the border in the direction
-  double mass = 0;
+  /// Mass of the objects by the distance to the border at which they leave, in the first picture of a pair, or
+  /// enter, in the second one.
+  std::array<double, kRadius> at_border{};
+  double mass = 0;  ///< of the objects in both pictures
 
   void add(const PairBlock& o, double sign) {
     for (std::size_t i = 0; i < next.size(); ++i) {
       next[i] += sign * o.next[i];
       self[i] += sign * o.self[i];
     }
-    for (std::size_t i = 0; i < leaving.size(); ++i) leaving[i] += sign * o.leaving[i];
+    for (std::size_t i = 0; i < at_border.size(); ++i) at_border[i] += sign * o.at_border[i];
     mass += sign * o.mass;
   }
-  /// Fraction of the objects that is still in the picture after a displacement.
+  /// Fraction of the objects of a picture that is in the other one, too, after a displacement.
   double remaining(double shift) const {
     double lost = 0;
-    for (std::size_t i = 0; i < leaving.size() && double(i) < shift; ++i) lost += leaving[i];
+    for (std::size_t i = 0; i < at_border.size() && double(i) < shift; ++i) lost += at_border[i];
     return mass > 0 ? 1 - lost / mass : 1;
   }
 };
 
-void add_mass(PairBlock& b, const Sparse& s, Vec2 along) {
+// `towards`: direction to the border.
+void add_mass(PairBlock& b, const Sparse& s, Vec2 towards) {
   for (const SparsePixel& p : s.pixels) {
     const auto m = double(s.band.at(p.col, p.row));
-    const double right = along.x > 0 ? s.band.width - 1 - p.col : p.col;
-    const double down = along.y > 0 ? s.band.height - 1 - p.row : p.row;
+    const double right = towards.x > 0 ? s.band.width - 1 - p.col : p.col;
+    const double down = towards.y > 0 ? s.band.height - 1 - p.row : p.row;
     const double distance =
-        std::min(right / std::max(std::fabs(along.x), 1e-9), down / std::max(std::fabs(along.y), 1e-9));
+        std::min(right / std::max(std::fabs(towards.x), 1e-9), down / std::max(std::fabs(towards.y), 1e-9));
     b.mass += m;
-    if (distance < kRadius) b.leaving[std::size_t(distance)] += m;
+    if (distance < kRadius) b.at_border[std::size_t(distance)] += m;
   }
 }
 
@@ -237,9 +248,10 @@ std::vector<PairBlock> blocks_of(const std::vector<Sparse>& pictures, const std:
     PairBlock& b = blocks[k * kPairBlocks / pairs];
     for (std::size_t i = 0; i < next[k].size(); ++i) {
       b.next[i] += next[k][i];
-      b.self[i] += self[k][i];
+      b.self[i] += 0.5 * (self[k][i] + self[k + gap][i]);
     }
     add_mass(b, pictures[k], correlate.along());
+    add_mass(b, pictures[k + gap], -1 * correlate.along());
   }
   return blocks;
 }
