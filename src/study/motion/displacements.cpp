@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kMostFrames = 64, kLeastFrames = 6;
 constexpr int kRadius = 32, kAcrossMotion = 6;  // px: displacements along and across
 constexpr double kSurroundRatio = 2.5;          // as in Detector
-constexpr double kThresholdSd = 1.5;            // of the noise of the band-passed picture
+constexpr double kThresholdSd = 1.5, kObjectSd = 4;  // of the noise of the band-passed picture
 constexpr int kPairBlocks = 5;                  // of the pairs
 constexpr double kShiftSizes = 1.25;            // displacement in sizes of an object
 // Standard deviation of the displacements over their mean, at least. Thesis: 45 / 186 for IT-1. Without a
@@ -41,7 +41,7 @@ std::size_t index_of(int displacement) {
 /// A band-passed picture, and the pixels of its objects.
 struct Sparse {
   GrayF band;                       ///< 0 below the threshold
-  std::vector<SparsePixel> pixels;  ///< above the threshold, with the value 1
+  std::vector<SparsePixel> pixels;  ///< of objects, with the value 1
 };
 
 Sparse sparse_of(const GrayF& objects, double size_px, double noise) {
@@ -49,13 +49,14 @@ Sparse sparse_of(const GrayF& objects, double size_px, double noise) {
   const double sd = size_px / kFwhmPerSd;
   s.band = smoothed(objects, sd);
   const GrayF wide = smoothed(objects, kSurroundRatio * sd);
-  const auto least = float(kThresholdSd * noise / std::sqrt(4 * M_PI * sd * sd));
+  const double noise_sd = noise / std::sqrt(4 * M_PI * sd * sd);
+  const auto least = float(kThresholdSd * noise_sd), of_objects = float(kObjectSd * noise_sd);
   for (int r = 0; r < s.band.height; ++r)
     for (int c = 0; c < s.band.width; ++c) {
       const std::size_t i = std::size_t(r) * std::size_t(s.band.width) + std::size_t(c);
       const float v = s.band.px[i] - wide.px[i];
       s.band.px[i] = std::fabs(v) > least ? v : 0.0F;
-      if (s.band.px[i] > 0) s.pixels.push_back({c, r, 1});
+      if (v > of_objects) s.pixels.push_back({c, r, 1});
     }
   return s;
 }

@@ -151,7 +151,7 @@ std::optional<Response> measure_response(const ResponseJob& job) {
   const double places = job.reversal_s ? 1 : std::max(1.0, length / kHalfSearch);
   if (!take_clearest(r, shifts, job, *part.to_s, double(kShiftMeasures.size()) * places)) return {};
   VideoPart after = part;
-  after.from_s = r.change.t_s + r.change.rise_s;
+  after.from_s = r.change.t_s + r.change.rise_s + job.frame_s;  // the rise is resolved to about one frame
   after.to_s = after.from_s + kMeasured;
   if (const auto common = common_displacement(frames, after, r.direction_deg, job.frame_s))
     take_speed(r, *common, frames, job.frame_s);
