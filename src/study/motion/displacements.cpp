@@ -17,11 +17,11 @@ namespace faba {
 namespace {
 
 constexpr std::size_t kMostFrames = 64, kLeastFrames = 6;
-constexpr int kRadius = 32, kAcrossMotion = 6;  // px: displacements along and across
-constexpr double kSurroundRatio = 2.5;          // as in Detector
+constexpr int kRadius = 32, kAcrossMotion = 6;       // px: displacements along and across
+constexpr double kSurroundRatio = 2.5;               // as in Detector
 constexpr double kThresholdSd = 1.5, kObjectSd = 4;  // of the noise of the band-passed picture
-constexpr int kPairBlocks = 5;                  // of the pairs
-constexpr double kShiftSizes = 1.25;            // displacement in sizes of an object
+constexpr int kPairBlocks = 5;                       // of the pairs
+constexpr double kShiftSizes = 1.25;                 // displacement in sizes of an object
 // Standard deviation of the displacements over their mean, at least. Thesis: 45 / 186 for IT-1. Without a
 // limit a few objects with equal speeds, which correlate most, are taken for all. Assumed.
 constexpr double kLeastShiftSpread = 0.15;
@@ -69,8 +69,8 @@ Sparse noise_picture(const ResponseFrames& frames) {
   return sparse_of(noise, frames.object_px(), frames.noise());
 }
 
-/// Sums of a picture over the objects of another one against the displacement between the pixels, projected on
-/// a direction.
+/// Sums of a picture over the objects of another one against the displacement between the pixels, projected
+/// on a direction.
 class Correlator {
  public:
   explicit Correlator(double direction_deg)
@@ -81,8 +81,8 @@ class Correlator {
   }
   Vec2 along() const { return along_; }
 
-  /// From the first picture to the second: the mean of the second one over the objects of the first and of the
-  /// first one over the objects of the second. Several threads may call it at the same time.
+  /// From the first picture to the second: the mean of the second one over the objects of the first and of
+  /// the first one over the objects of the second. Several threads may call it at the same time.
   Profile between(const Sparse& a, const Sparse& b) const {
     const Profile forward = one_way(a, b), backward = &a == &b ? forward : one_way(b, a);
     Profile both{};
@@ -116,9 +116,9 @@ class Correlator {
 
 /// Sums over the pairs of a block.
 struct PairBlock {
-  Profile next{}, self{};                 ///< of pictures with later ones and with themselves
-  /// Mass of the objects by the distance to the border at which they leave, in the first picture of a pair, or
-  /// enter, in the second one.
+  Profile next{}, self{};  ///< of pictures with later ones and with themselves
+  /// Mass of the objects by the distance to the border at which they leave, in the first picture of a pair,
+  /// or enter, in the second one.
   std::array<double, kRadius> at_border{};
   double mass = 0;  ///< of the objects in both pictures
 

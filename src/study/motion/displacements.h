@@ -19,8 +19,8 @@ struct CommonDisplacement {
 };
 
 /// Distribution of the displacements of all objects between pictures, without detection of single objects
-/// (after spatio-temporal image correlation; Hebert et al. 2005, Biophys. J. 88:3601; theory A16). The sum of a
-/// band-passed picture over the pixels of the objects of another one, against the displacement, is the
+/// (after spatio-temporal image correlation; Hebert et al. 2005, Biophys. J. 88:3601; theory A16). The sum of
+/// a band-passed picture over the pixels of the objects of another one, against the displacement, is the
 /// distribution of the displacements, convolved with the same sum within one picture. Objects that overlap
 /// count with their common contrast; the product of both pictures would count it squared. Different objects
 /// contribute noise only, also in a dense swarm. Objects without a preferred direction, moving or not,

@@ -16,7 +16,10 @@ constexpr double kMostSearched = 20;                 // s: part in which an unkn
 constexpr double kHalfSearch = 0.5;  // s before and after a possible change that are compared in the search
 constexpr double kEarlier = 0.5;     // s before the detected change at which the search of the onset starts
 constexpr double kNormal90 = 1.645;  // quantile of the normal distribution for a 90 % interval
-constexpr double kMeasured = 1;      // s after the rise in which speed and fraction are measured
+// s after the rise at which the measurement of speed and fraction starts: cells that leave an edge together
+// overlap before. Assumed.
+constexpr double kSeparated = 0.3;
+constexpr double kMeasured = 1;  // s
 
 /// The components of one measure.
 struct ShiftComponents {
@@ -151,7 +154,7 @@ std::optional<Response> measure_response(const ResponseJob& job) {
   const double places = job.reversal_s ? 1 : std::max(1.0, length / kHalfSearch);
   if (!take_clearest(r, shifts, job, *part.to_s, double(kShiftMeasures.size()) * places)) return {};
   VideoPart after = part;
-  after.from_s = r.change.t_s + r.change.rise_s + job.frame_s;  // the rise is resolved to about one frame
+  after.from_s = r.change.t_s + r.change.rise_s + kSeparated;
   after.to_s = after.from_s + kMeasured;
   if (const auto common = common_displacement(frames, after, r.direction_deg, job.frame_s))
     take_speed(r, *common, frames, job.frame_s);

@@ -23,7 +23,8 @@ constexpr int kSampled = 40;         // frames of the median
 constexpr double kDefaultSize = 4;   // px, as DetectorOptions: when no spot is significant
 constexpr double kSmoothing = 8;     // px: scale of the illumination, for the polarity
 constexpr double kSegmentSizes = 3;  // length of the closing segment over the size of an object
-constexpr double kLeastLight = 0.3;  // of the median light: noise is not amplified more where it is dark. Assumed
+constexpr double kLeastLight =
+    0.3;  // of the median light: noise is not amplified more where it is dark. Assumed
 
 GrayF scaled(const GrayF& frame, float by) {
   GrayF out = frame;
@@ -31,7 +32,8 @@ GrayF scaled(const GrayF& frame, float by) {
   return out;
 }
 
-// Factors from a difference to the background to one relative to the light there, in units of the median light.
+// Factors from a difference to the background to one relative to the light there, in units of the median
+// light.
 GrayF per_light(const GrayF& background) {
   std::vector<float> levels(background.px);
   const float middle = median_low(levels);

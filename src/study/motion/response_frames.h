@@ -8,9 +8,9 @@
 namespace faba {
 
 /// A part of a video as pictures of its objects: differences from an empty background, positive for objects,
-/// grey levels of the video averaged over squares of side() px. Dark objects absorb a fraction of the light, so
-/// that their differences are relative to the light of the background, in units of its median: a cell has the
-/// same contrast on the dark edge of a drop as in its middle. Bright objects add light.
+/// grey levels of the video averaged over squares of side() px. Dark objects absorb a fraction of the light,
+/// so that their differences are relative to the light of the background, in units of its median: a cell has
+/// the same contrast on the dark edge of a drop as in its middle. Bright objects add light.
 ///
 /// The background is the temporal median with small objects filled by line_closing(): objects that do not
 /// move are not part of it, long lines such as the edge of a drop are.
