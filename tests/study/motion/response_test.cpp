@@ -51,6 +51,30 @@ RenderedVideo swarm(int count, double responding, double speed_px_s, std::uint64
   return v;
 }
 
+/// Cells on the dark line along the edge of a drop, one after another. Every second one leaves it to the
+/// right after the reversal; the others stay.
+RenderedVideo at_the_edge(double speed_px_s) {
+  RenderedVideo v;
+  v.frames = 60;
+  v.microscope.cell_diameter = 2.5e-6;
+  v.edge = {{590, 119.5}, 550};
+  cells::Dice dice(7);
+  std::vector<Vec2> starts;
+  std::vector<double> speeds;
+  for (double y = 20; y < 220; y += 3) {
+    const double depth = 1 + dice.uniform(), inner = v.edge.radius - depth, dy = y - v.edge.centre.y;
+    starts.push_back({v.edge.centre.x - std::sqrt(inner * inner - dy * dy), y});
+    speeds.push_back(starts.size() % 2 ? speed_px_s * (1 + 0.24 * dice.normal()) : 0);
+  }
+  v.cells = [starts, speeds](double t) {
+    std::vector<CameraCell> out;
+    for (std::size_t i = 0; i < starts.size(); ++i)
+      out.push_back({float(starts[i].x + std::max(0.0, t - kReversal) * speeds[i]), float(starts[i].y)});
+    return out;
+  };
+  return v;
+}
+
 std::optional<Response> measured(const RenderedVideo& v) {
   const test::TemporaryFolder folder("response");
   write_rendered(v, folder.path() / "v.avi");
@@ -88,4 +112,15 @@ TEST_CASE("response: none of cells that swim in random directions") {
   REQUIRE(r->fraction);
   CHECK(r->fraction->value == 0);
   CHECK_FALSE(r->speed_px_s);
+}
+
+// Cells absorb less light on the dark edge, and overlap. The fraction must not depend on either.
+TEST_CASE("response: cells that stay on the dark edge of a drop are as many as those that leave it") {
+  const double speed = 60;
+  const auto r = measured(at_the_edge(speed));
+  REQUIRE(r);
+  REQUIRE(r->fraction);
+  CHECK(std::fabs(r->fraction->value - 0.5) < 0.1);
+  REQUIRE(r->speed_px_s);
+  CHECK(std::fabs(r->speed_px_s->value / speed - 1) < 0.1);
 }
