@@ -17,11 +17,11 @@ const folder = mkdtempSync(join(tmpdir(), 'faba-pages-'));
 process.on('exit', () => rmSync(folder, { recursive: true, force: true }));
 const faba = (...words) => execFileSync(program, words, { cwd: folder, stdio: ['ignore', 'ignore', 'ignore'] });
 
-// A comparison with all columns: coils have an effort, a route has a cross-track error, two delays and two models a condition.
+// A comparison with many columns: two delays and two models need a condition, a route has a cross-track error, coils have an effort,
+// and the swarm settles because it starts at its setpoints.
 writeFileSync(join(folder, 'study.toml'), `scene = "${join(root, 'scenes/null-route.toml')}"
 seeds = 2
 delays = [0, 4]
-duration = "1 s"
 [[controller]]
 name = "gradient with feedback"
 type = "gradient_feedback"
@@ -30,9 +30,15 @@ name = "gradient without feedback"
 type = "gradient"
 [[model]]
 name = "standard cells"
+type = "dipole"
+preset = "IT-1"
+set = { "duration" = "1 s", "reference.setpoints_px" = [[320, 240], [322, 240]], "reference.hold_frames" = 3 }
 [[model]]
 name = "slow cells"
-set = { "swarm[0].model.speed" = "40 um/s" }
+type = "dipole"
+preset = "IT-1"
+speed = "40 um/s"
+set = { "duration" = "1 s", "reference.setpoints_px" = [[320, 240], [322, 240]], "reference.hold_frames" = 3 }
 `);
 faba('compare-controllers', 'study.toml', '--out', 'controllers');
 faba('run', join(root, 'scenes/as-seen.toml'), '--seed', '1', '--duration', '3 s', '--out', 'run');
@@ -44,7 +50,7 @@ const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
 for (const file of ['controllers/report.html', 'run/report.html', 'track.html', 'activity.html']) {
   await page.goto(pathToFileURL(join(folder, file)).href);
   const tables = await page.evaluate(() => [...document.querySelectorAll('table')].map((table) => {
-    const box = table.getBoundingClientRect(), frame = table.parentElement;
+    const box = table.getBoundingClientRect(), frame = table.closest('.wide') ?? table;
     const head = table.tHead?.rows[0].cells, body = table.tBodies[0]?.rows[0].cells;
     const aligned = !head || [...head].slice(1).every((h, i) => getComputedStyle(h).textAlign === getComputedStyle(body[i + 1]).textAlign);
     return { columns: head?.length, left: box.left, right: box.right, cut: frame.scrollWidth - frame.clientWidth, aligned };
