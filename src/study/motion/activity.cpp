@@ -205,6 +205,7 @@ void warn_of_flow(VideoActivity& a) {
 void note_response(VideoActivity& a) {
   if (!a.response) return;
   const Response& r = *a.response;
+  if (auto warning = no_response_warning(r)) a.warnings.push_back(*warning);
   if (!r.responds)
     a.notes.push_back(fmt::format(
         "no response: the velocity along {} degrees does not change significantly (t = {:.2g}; a sample "

@@ -34,7 +34,9 @@ struct Response {
   std::string measure;            ///< of the displacements for the onset
   bool responds = false;          ///< whether the change of velocity is significant
   ChangePoint change;             ///< also without a response
-  std::string fraction_method;    ///< of `fraction`; empty when it is unknown
+  /// Without a response in a given direction: that of another significant change of the velocity.
+  std::optional<double> other_direction_deg = {};
+  std::string fraction_method;  ///< of `fraction`; empty when it is unknown
   std::optional<Measured>
       fraction;  ///< of the objects in view from 0.3 to 1.3 s after the rise; 0: no response
   std::optional<Measured> speed_px_s;  ///< mean, along the direction, of the responding objects

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "study/motion/activity_checks.h"
 #include "tests/rendered_video.h"
 #include "tests/temporary_folder.h"
 #include "tests/vision/rendered_cells.h"
@@ -75,13 +76,14 @@ RenderedVideo at_the_edge(double speed_px_s) {
   return v;
 }
 
-std::optional<Response> measured(const RenderedVideo& v) {
+std::optional<Response> measured(const RenderedVideo& v, double direction_deg = 0,
+                                 double reversal_s = kReversal) {
   const test::TemporaryFolder folder("response");
   write_rendered(v, folder.path() / "v.avi");
   ResponseJob job;
   job.video = folder.path() / "v.avi";
-  job.reversal_s = kReversal;
-  job.direction_deg = 0;
+  job.reversal_s = reversal_s;
+  job.direction_deg = direction_deg;
   job.frame_s = 1 / v.fps;
   job.threads = 1;
   return measure_response(job);
@@ -123,4 +125,29 @@ TEST_CASE("response: cells that stay on the dark edge of a drop are as many as t
   CHECK(std::fabs(r->fraction->value - 0.5) < 0.1);
   REQUIRE(r->speed_px_s);
   CHECK(std::fabs(r->speed_px_s->value / speed - 1) < 0.1);
+}
+
+TEST_CASE("response: a wrong direction and a wrong time are named, and no response is without warning") {
+  for (const double direction : {90, 180}) {
+    const auto r = measured(swarm(200, 0.8, 202, 3), direction);
+    REQUIRE(r);
+    CHECK_FALSE(r->responds);
+    REQUIRE(r->other_direction_deg);
+    CHECK(std::fabs(std::remainder(*r->other_direction_deg, 360)) < 30);
+    const auto warning = no_response_warning(*r);
+    REQUIRE(warning);
+    CHECK(warning->aspect == "direction");
+    CHECK(warning->quality == Quality::poor);
+  }
+  RenderedVideo longer = swarm(200, 0.8, 202, 3);
+  longer.frames = 75;
+  const auto late = measured(longer, 0, 2.5);
+  REQUIRE(late);
+  CHECK_FALSE(late->responds);
+  const auto warning = no_response_warning(*late);
+  REQUIRE(warning);
+  CHECK(warning->aspect == "timing");
+  const auto none = measured(swarm(200, 0, 202, 4));
+  REQUIRE(none);
+  CHECK_FALSE(no_response_warning(*none));
 }
