@@ -2,7 +2,7 @@
 // experiments at eight air exposure times, with camera noise and without, and measures them. Prints one JSON
 // object per seed for bench/exposure.py.
 //
-//   bench_exposure SCENE SEEDS [FOLDER]
+//   bench_exposure SCENE FIRST LAST [FOLDER]
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -101,17 +101,17 @@ nlohmann::ordered_json shown(const ActivityResult& r) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  if (argc < 3) {
-    fmt::print(stderr, "bench_exposure SCENE SEEDS [FOLDER]\n");
+  if (argc < 4) {
+    fmt::print(stderr, "bench_exposure SCENE FIRST LAST [FOLDER]\n");
     return 2;
   }
   const std::string scene = argv[1];
-  const int seeds = std::atoi(argv[2]);
+  const int first = std::atoi(argv[2]), last = std::atoi(argv[3]);
   const std::filesystem::path folder =
-      argc > 3 ? argv[3] : std::filesystem::temp_directory_path() / "faba-exposure";
+      argc > 4 ? argv[4] : std::filesystem::temp_directory_path() / "faba-exposure";
   std::filesystem::create_directories(folder);
   Pool pool;
-  for (int k = 1; k <= seeds; ++k) {
+  for (int k = first; k <= last; ++k) {
     const ActivityResult noisy = study(scene, std::uint64_t(k), {}, folder, pool);
     const double threshold = noisy.videos.front().threshold_px;
     const ActivityResult plain = study(scene, std::uint64_t(k), threshold, folder, pool);

@@ -75,4 +75,9 @@ std::vector<std::array<double, 2>> resampled_estimates(const ParameterSearch& se
   return out;
 }
 
+bool experiments_differ(const std::array<double, 2>& resampled90, const std::array<double, 2>& ci90) {
+  constexpr double kMostWider = 2;  // a 3 sd event for four experiments
+  return resampled90[1] - resampled90[0] > kMostWider * (ci90[1] - ci90[0]);
+}
+
 }  // namespace faba

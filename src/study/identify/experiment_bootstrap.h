@@ -16,4 +16,9 @@ std::vector<std::array<double, 2>> resampled_estimates(
     const ParameterSearch& search, const std::vector<std::vector<Eigen::Index>>& experiments,
     const Eigen::VectorXd& centre, const Eigen::VectorXd& sd, std::uint64_t seed);
 
+/// Whether the interval over resampled experiments is so much wider than that of the posterior that the
+/// experiments differ. Their positions may differ at random: a median just outside of the bootstrap interval
+/// is no evidence.
+bool experiments_differ(const std::array<double, 2>& resampled90, const std::array<double, 2>& ci90);
+
 }  // namespace faba

@@ -49,7 +49,6 @@ constexpr int kProfile = 41;               // points of a profile likelihood
 constexpr double kUninformative = 0.75;    // fraction of the prior range; a uniform posterior has 0.9
 constexpr double kMaxCorrelation = 0.9;    // above it two parameters are not identifiable separately
 constexpr double kLimitTolerance = 0.005;  // fraction of the prior range
-constexpr double kMaxBootstrapWidth = 2;   // over the posterior width; a 3 sd event for four experiments
 
 double weighted_quantile(const VectorXd& v, const VectorXd& weight, double p) {
   std::vector<Index> order(std::size_t(v.size()));
@@ -137,9 +136,8 @@ void add_doubts(FoundModel& m, const MatrixXd& draws, const char* parts) {
                                "Bayesian computation do not overlap: neither is reliable",
                                q.path));
     // The field segments of one swarm determine a parameter unequally, which makes their bootstrap wide.
-    const bool differ =
-        p.resampled90 && std::string_view(parts) == "experiments" &&
-        ((*p.resampled90)[1] - (*p.resampled90)[0] > kMaxBootstrapWidth * (p.ci90[1] - p.ci90[0]));
+    const bool differ = p.resampled90 && std::string_view(parts) == "experiments" &&
+                        experiments_differ(*p.resampled90, p.ci90);
     if (p.doubt.empty() && differ)
       p.doubt = fmt::format(
           "{} differs between {} by more than the model predicts: the 90 % bootstrap interval over {} is "

@@ -205,6 +205,7 @@ void warn_of_flow(VideoActivity& a) {
 void note_response(VideoActivity& a) {
   if (!a.response) return;
   const Response& r = *a.response;
+  if (auto warning = no_response_warning(r)) a.warnings.push_back(*warning);
   if (!r.responds)
     a.notes.push_back(fmt::format(
         "no response: the velocity along {} degrees does not change significantly (t = {:.2g}; a sample "
@@ -234,12 +235,14 @@ void note_motion(VideoActivity& a) {
                           rounded_degrees(a.direction_deg)));
 }
 
-// Widens the interval of a fraction by its binomial variance: the objects in view are a sample. The variance
-// is at least that of one object.
+// Widens the interval of a fraction: the objects in view are a sample, with a binomial variance of at least
+// that of one object. Of the objects that do not respond and swim in random directions, half are within 45
+// degrees of the axis of the response, and add 1 or -1.
 void add_sampling_error(Measured& f, double objects) {
   constexpr double k90 = 1.645;  // quantile of the normal distribution for a 90 % interval
   const double least = 1 / objects;
-  const double p = std::clamp(f.value, least, 1 - least), error = k90 * std::sqrt(p * (1 - p) / objects);
+  const double p = std::clamp(f.value, least, 1 - least),
+               error = k90 * std::sqrt((p * (1 - p) + 0.5 * (1 - p)) / objects);
   f.ci90 = {std::max(0.0, f.value - std::hypot(f.value - f.ci90[0], error)),
             std::min(1.0, f.value + std::hypot(f.ci90[1] - f.value, error))};
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "study/motion/response.h"
 #include "study/motion/signature.h"
 #include "study/motion/video_look.h"
 #include "study/quality/quality.h"
@@ -14,5 +15,9 @@ std::optional<Warning> light_warning(const LightChange& light, int px_side, doub
 /// Flows along a direction and against it at the same time, which cancel in along(): cells of both
 /// polarities.
 std::optional<Warning> opposite_warning(const Signature& signature, double direction_deg);
+
+/// No response, although the velocity changes in another direction than the given one, or although many cells
+/// move along it.
+std::optional<Warning> no_response_warning(const Response& response);
 
 }  // namespace faba

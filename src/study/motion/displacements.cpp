@@ -17,11 +17,11 @@ namespace faba {
 namespace {
 
 constexpr std::size_t kMostFrames = 64, kLeastFrames = 6;
-constexpr int kRadius = 32, kAcrossMotion = 6;  // px: displacements along and across
-constexpr double kSurroundRatio = 2.5;          // as in Detector
-constexpr double kThresholdSd = 1.5;            // of the noise of the band-passed picture
-constexpr int kPairBlocks = 5;                  // of the pairs
-constexpr double kShiftSizes = 1.25;            // displacement in sizes of an object
+constexpr int kRadius = 32, kAcrossMotion = 6;       // px: displacements along and across
+constexpr double kSurroundRatio = 2.5;               // as in Detector
+constexpr double kThresholdSd = 1.5, kObjectSd = 4;  // of the noise of the band-passed picture
+constexpr int kPairBlocks = 5;                       // of the pairs
+constexpr double kShiftSizes = 1.25;                 // displacement in sizes of an object
 // Standard deviation of the displacements over their mean, at least. Thesis: 45 / 186 for IT-1. Without a
 // limit a few objects with equal speeds, which correlate most, are taken for all. Assumed.
 constexpr double kLeastShiftSpread = 0.15;
@@ -38,10 +38,10 @@ std::size_t index_of(int displacement) {
   return std::size_t(i);
 }
 
-/// A band-passed picture, and its pixels above the noise.
+/// A band-passed picture, and the pixels of its objects.
 struct Sparse {
-  GrayF band;  ///< 0 below the threshold
-  std::vector<SparsePixel> pixels;
+  GrayF band;                       ///< 0 below the threshold
+  std::vector<SparsePixel> pixels;  ///< of objects, with the value 1
 };
 
 Sparse sparse_of(const GrayF& objects, double size_px, double noise) {
@@ -49,13 +49,14 @@ Sparse sparse_of(const GrayF& objects, double size_px, double noise) {
   const double sd = size_px / kFwhmPerSd;
   s.band = smoothed(objects, sd);
   const GrayF wide = smoothed(objects, kSurroundRatio * sd);
-  const auto least = float(kThresholdSd * noise / std::sqrt(4 * M_PI * sd * sd));
+  const double noise_sd = noise / std::sqrt(4 * M_PI * sd * sd);
+  const auto least = float(kThresholdSd * noise_sd), of_objects = float(kObjectSd * noise_sd);
   for (int r = 0; r < s.band.height; ++r)
     for (int c = 0; c < s.band.width; ++c) {
       const std::size_t i = std::size_t(r) * std::size_t(s.band.width) + std::size_t(c);
       const float v = s.band.px[i] - wide.px[i];
       s.band.px[i] = std::fabs(v) > least ? v : 0.0F;
-      if (s.band.px[i] != 0) s.pixels.push_back({c, r, v});
+      if (v > of_objects) s.pixels.push_back({c, r, 1});
     }
   return s;
 }
@@ -68,7 +69,8 @@ Sparse noise_picture(const ResponseFrames& frames) {
   return sparse_of(noise, frames.object_px(), frames.noise());
 }
 
-/// Sums of products of two pictures against the displacement between the pixels, projected on a direction.
+/// Sums of a picture over the objects of another one against the displacement between the pixels, projected
+/// on a direction.
 class Correlator {
  public:
   explicit Correlator(double direction_deg)
@@ -79,8 +81,18 @@ class Correlator {
   }
   Vec2 along() const { return along_; }
 
-  /// Several threads may call it at the same time.
+  /// From the first picture to the second: the mean of the second one over the objects of the first and of
+  /// the first one over the objects of the second. Several threads may call it at the same time.
   Profile between(const Sparse& a, const Sparse& b) const {
+    const Profile forward = one_way(a, b), backward = &a == &b ? forward : one_way(b, a);
+    Profile both{};
+    for (std::size_t i = 0; i < both.size(); ++i)
+      both[i] = 0.5 * (forward[i] + backward[both.size() - 1 - i]);
+    return both;
+  }
+
+ private:
+  Profile one_way(const Sparse& a, const Sparse& b) const {
     const CorrelationSums sums = window_.sums(a.pixels, b.band);
     Profile profile{};
     for (int dy = -kRadius; dy <= kRadius; ++dy)
@@ -93,8 +105,6 @@ class Correlator {
       }
     return profile;
   }
-
- private:
   bool inside(int dx, int dy) const {
     const double s = dx * along_.x + dy * along_.y, across = dy * along_.x - dx * along_.y;
     return std::fabs(s) <= kRadius - 1 && std::fabs(across) <= kAcrossMotion;
@@ -106,35 +116,38 @@ class Correlator {
 
 /// Sums over the pairs of a block.
 struct PairBlock {
-  Profile next{}, self{};                 ///< of pictures with later ones and with themselves
-  std::array<double, kRadius> leaving{};  ///< energy of pixels by the distance to the border in the direction
-  double energy = 0;
+  Profile next{}, self{};  ///< of pictures with later ones and with themselves
+  /// Mass of the objects by the distance to the border at which they leave, in the first picture of a pair,
+  /// or enter, in the second one.
+  std::array<double, kRadius> at_border{};
+  double mass = 0;  ///< of the objects in both pictures
 
   void add(const PairBlock& o, double sign) {
     for (std::size_t i = 0; i < next.size(); ++i) {
       next[i] += sign * o.next[i];
       self[i] += sign * o.self[i];
     }
-    for (std::size_t i = 0; i < leaving.size(); ++i) leaving[i] += sign * o.leaving[i];
-    energy += sign * o.energy;
+    for (std::size_t i = 0; i < at_border.size(); ++i) at_border[i] += sign * o.at_border[i];
+    mass += sign * o.mass;
   }
-  /// Fraction of the objects that is still in the picture after a displacement.
+  /// Fraction of the objects of a picture that is in the other one, too, after a displacement.
   double remaining(double shift) const {
     double lost = 0;
-    for (std::size_t i = 0; i < leaving.size() && double(i) < shift; ++i) lost += leaving[i];
-    return energy > 0 ? 1 - lost / energy : 1;
+    for (std::size_t i = 0; i < at_border.size() && double(i) < shift; ++i) lost += at_border[i];
+    return mass > 0 ? 1 - lost / mass : 1;
   }
 };
 
-void add_energy(PairBlock& b, const Sparse& s, Vec2 along) {
+// `towards`: direction to the border.
+void add_mass(PairBlock& b, const Sparse& s, Vec2 towards) {
   for (const SparsePixel& p : s.pixels) {
-    const double e = double(p.value) * double(p.value);
-    const double right = along.x > 0 ? s.band.width - 1 - p.col : p.col;
-    const double down = along.y > 0 ? s.band.height - 1 - p.row : p.row;
+    const auto m = double(s.band.at(p.col, p.row));
+    const double right = towards.x > 0 ? s.band.width - 1 - p.col : p.col;
+    const double down = towards.y > 0 ? s.band.height - 1 - p.row : p.row;
     const double distance =
-        std::min(right / std::max(std::fabs(along.x), 1e-9), down / std::max(std::fabs(along.y), 1e-9));
-    b.energy += e;
-    if (distance < kRadius) b.leaving[std::size_t(distance)] += e;
+        std::min(right / std::max(std::fabs(towards.x), 1e-9), down / std::max(std::fabs(towards.y), 1e-9));
+    b.mass += m;
+    if (distance < kRadius) b.at_border[std::size_t(distance)] += m;
   }
 }
 
@@ -236,9 +249,10 @@ std::vector<PairBlock> blocks_of(const std::vector<Sparse>& pictures, const std:
     PairBlock& b = blocks[k * kPairBlocks / pairs];
     for (std::size_t i = 0; i < next[k].size(); ++i) {
       b.next[i] += next[k][i];
-      b.self[i] += self[k][i];
+      b.self[i] += 0.5 * (self[k][i] + self[k + gap][i]);
     }
-    add_energy(b, pictures[k], correlate.along());
+    add_mass(b, pictures[k], correlate.along());
+    add_mass(b, pictures[k + gap], -1 * correlate.along());
   }
   return blocks;
 }
@@ -299,7 +313,7 @@ std::optional<CommonDisplacement> common_displacement(const ResponseFrames& fram
     const std::vector<PairBlock> blocks = blocks_of(pictures, self, gap, correlate, pool);
     PairBlock all;
     for (const PairBlock& b : blocks) all.add(b, 1);
-    if (!(all.energy > 0)) return {};
+    if (!(all.mass > 0)) return {};
     const ShiftFit fit = fit_of(all, size, 1);
     const bool longer = fit.shift < kShiftSizes * size && 2 * double(gap) * frame_s <= kLongestGap &&
                         pictures.size() >= 2 * gap + kLeastFrames;

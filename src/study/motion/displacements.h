@@ -9,7 +9,7 @@ namespace faba {
 
 /// Displacement along one direction that a fraction of the objects has in common.
 struct CommonDisplacement {
-  double fraction = 0;                    ///< of the objects in view, weighted by squared contrast
+  double fraction = 0;                    ///< of the objects in view, weighted by contrast
   double shift_px = 0;                    ///< mean displacement between consecutive frames, px of the video
   std::array<double, 2> fraction_ci90{};  ///< from delete-one-block estimates
   std::array<double, 2> shift_ci90{};     ///< likewise, px
@@ -19,12 +19,13 @@ struct CommonDisplacement {
 };
 
 /// Distribution of the displacements of all objects between pictures, without detection of single objects
-/// (spatio-temporal image correlation; Hebert et al. 2005, Biophys. J. 88:3601; theory A16). The correlation
-/// of two band-passed pictures against the displacement is the distribution of the displacements, convolved
-/// with the correlation of a picture with itself; different objects contribute noise only, also in a dense
-/// swarm. Objects without a preferred direction, moving or not, contribute equally in both directions, so
-/// that the difference of both directions has only the common displacement. A Gaussian distribution is fitted
-/// to it.
+/// (after spatio-temporal image correlation; Hebert et al. 2005, Biophys. J. 88:3601; theory A16). The sum of
+/// a band-passed picture over the pixels of the objects of another one, against the displacement, is the
+/// distribution of the displacements, convolved with the same sum within one picture. Objects that overlap
+/// count with their common contrast; the product of both pictures would count it squared. Different objects
+/// contribute noise only, also in a dense swarm. Objects without a preferred direction, moving or not,
+/// contribute equally in both directions, so that the difference of both directions has only the common
+/// displacement. A Gaussian distribution is fitted to it.
 ///
 /// `direction_deg`: image frame. Uses up to 64 frames of `part`; the gap between compared pictures is
 /// increased up to 0.25 s until the displacement is 1.25 times the size of an object. Empty with fewer than

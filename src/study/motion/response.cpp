@@ -16,7 +16,11 @@ constexpr double kMostSearched = 20;                 // s: part in which an unkn
 constexpr double kHalfSearch = 0.5;  // s before and after a possible change that are compared in the search
 constexpr double kEarlier = 0.5;     // s before the detected change at which the search of the onset starts
 constexpr double kNormal90 = 1.645;  // quantile of the normal distribution for a 90 % interval
-constexpr double kMeasured = 1;      // s after the rise in which speed and fraction are measured
+// s after the rise at which the measurement of speed and fraction starts: cells that leave an edge together
+// overlap before. Assumed.
+constexpr double kSeparated = 0.3;
+constexpr double kAnyDirection = 12;  // independent possibilities of a direction that is not given. Assumed
+constexpr double kMeasured = 1;       // s
 
 /// The components of one measure.
 struct ShiftComponents {
@@ -97,6 +101,15 @@ bool take_clearest(Response& r, const PairShifts& p, const ResponseJob& job, dou
   return found;
 }
 
+// The direction of the clearest change when the given one is ignored, if it is significant.
+std::optional<double> changed_direction(const PairShifts& p, ResponseJob job, double latest, double tests) {
+  job.direction_deg.reset();
+  Response any;
+  any.earliest_s = job.reversal_s.value_or(job.part.from_s);
+  if (!take_clearest(any, p, job, latest, kAnyDirection * tests) || !any.responds) return {};
+  return any.direction_deg;
+}
+
 std::array<double, 2> clipped(std::array<double, 2> interval, double most) {
   for (double& v : interval) v = std::clamp(v, 0.0, most);
   return interval;
@@ -149,9 +162,12 @@ std::optional<Response> measure_response(const ResponseJob& job) {
   r.direction_deg = job.direction_deg.value_or(0);
   const double length = shifts.t1_s.back() - shifts.t0_s.front();
   const double places = job.reversal_s ? 1 : std::max(1.0, length / kHalfSearch);
-  if (!take_clearest(r, shifts, job, *part.to_s, double(kShiftMeasures.size()) * places)) return {};
+  const double tests = double(kShiftMeasures.size()) * places;
+  if (!take_clearest(r, shifts, job, *part.to_s, tests)) return {};
+  if (!r.responds && job.direction_deg)
+    r.other_direction_deg = changed_direction(shifts, job, *part.to_s, tests);
   VideoPart after = part;
-  after.from_s = r.change.t_s + r.change.rise_s;
+  after.from_s = r.change.t_s + r.change.rise_s + kSeparated;
   after.to_s = after.from_s + kMeasured;
   if (const auto common = common_displacement(frames, after, r.direction_deg, job.frame_s))
     take_speed(r, *common, frames, job.frame_s);

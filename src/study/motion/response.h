@@ -28,14 +28,17 @@ struct Measured {
 /// Response of the objects in a video to a field reversal (theory A16).
 struct Response {
   enum class Source { given, recorded, detected };
-  Source source = Source::given;     ///< of the time of the reversal
-  double earliest_s = 0;             ///< the reversal, or the start of the search if it was detected
-  double direction_deg = 0;          ///< of the motion after it
-  std::string measure;               ///< of the displacements for the onset
-  bool responds = false;             ///< whether the change of velocity is significant
-  ChangePoint change;                ///< also without a response
-  std::string fraction_method;       ///< of `fraction`; empty when it is unknown
-  std::optional<Measured> fraction;  ///< of the objects in view in the second after the rise; 0: no response
+  Source source = Source::given;  ///< of the time of the reversal
+  double earliest_s = 0;          ///< the reversal, or the start of the search if it was detected
+  double direction_deg = 0;       ///< of the motion after it
+  std::string measure;            ///< of the displacements for the onset
+  bool responds = false;          ///< whether the change of velocity is significant
+  ChangePoint change;             ///< also without a response
+  /// Without a response in a given direction: that of another significant change of the velocity.
+  std::optional<double> other_direction_deg = {};
+  std::string fraction_method;  ///< of `fraction`; empty when it is unknown
+  std::optional<Measured>
+      fraction;  ///< of the objects in view from 0.3 to 1.3 s after the rise; 0: no response
   std::optional<Measured> speed_px_s;  ///< mean, along the direction, of the responding objects
   std::optional<FlowVerdict> flow;
 };

@@ -23,10 +23,22 @@ constexpr int kSampled = 40;         // frames of the median
 constexpr double kDefaultSize = 4;   // px, as DetectorOptions: when no spot is significant
 constexpr double kSmoothing = 8;     // px: scale of the illumination, for the polarity
 constexpr double kSegmentSizes = 3;  // length of the closing segment over the size of an object
+constexpr double kLeastLight =
+    0.3;  // of the median light: noise is not amplified more where it is dark. Assumed
 
 GrayF scaled(const GrayF& frame, float by) {
   GrayF out = frame;
   for (float& v : out.px) v *= by;
+  return out;
+}
+
+// Factors from a difference to the background to one relative to the light there, in units of the median
+// light.
+GrayF per_light(const GrayF& background) {
+  std::vector<float> levels(background.px);
+  const float middle = median_low(levels);
+  GrayF out = background;
+  for (float& v : out.px) v = middle > 0 ? middle / std::max(v, float(kLeastLight) * middle) : 1.0F;
   return out;
 }
 
@@ -74,12 +86,14 @@ ResponseFrames::ResponseFrames(std::filesystem::path video, const VideoPart& par
   if (!(size_ > 0)) size_ = spot_size(middle, smooth, polarity, pool).px;
   if (!(size_ > 0)) size_ = kDefaultSize;
   filled_ = line_closing(scaled(median.level, float(sign_)), std::max(3.0, kSegmentSizes * size_)).least;
+  if (polarity == Polarity::dark) gain_ = per_light(filled_);
 }
 
 GrayF ResponseFrames::prepared(GrayF& frame) const {
   GrayF out = reduced(frame, side_);
   const auto sign = float(sign_);
   for (std::size_t i = 0; i < out.px.size(); ++i) out.px[i] = filled_.px[i] - sign * out.px[i];
+  for (std::size_t i = 0; i < gain_.px.size(); ++i) out.px[i] *= gain_.px[i];
   return out;
 }
 

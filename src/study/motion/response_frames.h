@@ -8,7 +8,9 @@
 namespace faba {
 
 /// A part of a video as pictures of its objects: differences from an empty background, positive for objects,
-/// grey levels of the video averaged over squares of side() px.
+/// grey levels of the video averaged over squares of side() px. Dark objects absorb a fraction of the light,
+/// so that their differences are relative to the light of the background, in units of its median: a cell has
+/// the same contrast on the dark edge of a drop as in its middle. Bright objects add light.
 ///
 /// The background is the temporal median with small objects filled by line_closing(): objects that do not
 /// move are not part of it, long lines such as the edge of a drop are.
@@ -44,6 +46,7 @@ class ResponseFrames {
   std::int64_t frames_ = 0;
   double size_ = 0, noise_ = 0, sign_ = 1;
   GrayF filled_;  ///< background in the sense of dark objects
+  GrayF gain_;    ///< factor on the differences of dark objects; empty for bright ones
 };
 
 }  // namespace faba

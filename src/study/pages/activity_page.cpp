@@ -238,9 +238,21 @@ std::string table(const ActivityResult& r) {
   return none ? out : out + segments_table(r);
 }
 
+// The response to a field reversal at a known time.
+std::string response_lead(const VideoActivity& a) {
+  if (quality_of(a.warnings) == Quality::poor)
+    return "The response to the field reversal could not be measured.";
+  if (!a.response->responds) return "No response to the field reversal was detected.";
+  std::string text = "The cells respond to the field reversal";
+  if (a.response->fraction) text += fmt::format(": a fraction of {}", fraction_text(a));
+  if (a.response->fraction && a.response->speed_px_s) text += fmt::format(" at {}", speed_text(a));
+  return text + (a.response->fraction ? " (90 % intervals)." : ".");
+}
+
 std::string lead(const ActivityResult& r) {
   if (r.videos.size() == 1) {
     const VideoActivity& a = r.videos.front();
+    if (a.response && a.response->source != Response::Source::detected) return response_lead(a);
     return a.segments.empty() ? "No significant motion in one direction was detected."
                               : fmt::format("Motion in one direction was detected in {}.",
                                             counted(a.segments.size(), "time interval"));

@@ -219,7 +219,12 @@ std::vector<Warning> detection_warnings(const TrackDetection& d) {
 }
 
 std::vector<Warning> track_warnings(const TrackMeasurement& m) {
-  if (m.frames < 2) return {};
+  if (m.frames < 2)
+    return {
+        {"frames",
+         "a single frame: a texture cannot be distinguished from objects, because it is not known what moves",
+         fmt::format("{:.0f} detections", m.detection.spots_per_frame),
+         "look at --preview, or give several frames"}};
   std::vector<Warning> out = detection_warnings(m.detection);
   if (m.summary.tracks == 0) {
     out.push_back({"detection", "no objects were tracked, so that nothing was measured",

@@ -59,3 +59,10 @@ TEST_CASE("experiment bootstrap: no interval for two experiments") {
   CHECK(
       resampled_estimates(s, {{0}, {1}}, VectorXd::Constant(1, 0.5), VectorXd::Constant(1, 0.1), 1).empty());
 }
+
+TEST_CASE("experiment bootstrap: experiments differ if the interval is wide, not if it is shifted") {
+  const std::array<double, 2> ci90{100, 120};  // median 110
+  CHECK_FALSE(experiments_differ({111, 129}, ci90));
+  CHECK_FALSE(experiments_differ({90, 128}, ci90));
+  CHECK(experiments_differ({80, 130}, ci90));
+}

@@ -51,6 +51,7 @@ TEST_CASE("activity report: onset, fraction and speed with their 90 % intervals"
   CHECK(has(page, "0.50 [0.30, 0.70]"));
   CHECK(has(page, "field reversal at 0.250 s"));
   CHECK(has(page, "standard error 0.0200 s"));
+  CHECK(has(page, "The cells respond to the field reversal: a fraction of 0.75 [0.50, 1.00] at "));
   const auto video = activity_json(r)["videos"][0];
   CHECK(video["onset_s"] == 0.5);
   CHECK(video["onset_ci90"][0] == 0.3);
@@ -80,4 +81,16 @@ TEST_CASE("activity report: the headings of the columns are in the head of each 
   const std::string page = activity_page(one_video(true));
   CHECK(has(page, "<thead><tr><th scope=\"col\">video</th><th scope=\"col\">direction</th>"));
   CHECK(has(page, "<thead><tr><th scope=\"col\">video</th><th scope=\"col\">from (s)</th>"));
+}
+
+TEST_CASE("activity report: the headline agrees with the response and with the quality") {
+  ActivityResult r = one_video(true);
+  r.videos[0].segments.clear();
+  CHECK(has(activity_page(r), "The cells respond to the field reversal"));
+  CHECK_FALSE(has(activity_page(r), "No significant motion"));
+  r.videos[0].warnings = {{"direction", "wrong", "", "", Quality::poor}};
+  CHECK(has(activity_page(r), "could not be measured"));
+  r.videos[0].warnings.clear();
+  r.videos[0].response->responds = false;
+  CHECK(has(activity_page(r), "No response to the field reversal was detected."));
 }

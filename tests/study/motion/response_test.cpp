@@ -1,0 +1,153 @@
+// Responding fraction and speed at the frame rate of the thesis, from rendered videos with known truth.
+#include "study/motion/response.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "study/motion/activity_checks.h"
+#include "tests/rendered_video.h"
+#include "tests/temporary_folder.h"
+#include "tests/vision/rendered_cells.h"
+
+using namespace faba;
+
+namespace {
+
+constexpr double kReversal = 1;  // s
+
+/// Straight paths on a torus around the view, so that the number of cells in view is constant. Cells that
+/// respond swim to the left before the reversal and to the right after it, others in random directions.
+RenderedVideo swarm(int count, double responding, double speed_px_s, std::uint64_t seed) {
+  struct Swimmer {
+    Vec2 start, velocity;
+    bool responds;
+  };
+  const double margin = 40;
+  RenderedVideo v;
+  v.frames = 45;
+  v.seed = seed;
+  v.microscope.cell_diameter = 2.5e-6;
+  cells::Dice dice(seed);
+  std::vector<Swimmer> all;
+  for (int i = 0; i < count; ++i) {
+    const double speed = speed_px_s * (1 + 0.24 * dice.normal()), angle = 2 * M_PI * dice.uniform();
+    const Vec2 start{(v.width + 2 * margin) * dice.uniform(), (v.height + 2 * margin) * dice.uniform()};
+    const bool responds = i < responding * count;
+    all.push_back(
+        {start, responds ? Vec2{speed, 0} : speed * Vec2{std::cos(angle), std::sin(angle)}, responds});
+  }
+  v.cells = [all, v, margin](double t) {
+    std::vector<CameraCell> out;
+    for (const Swimmer& s : all) {
+      const double path = s.responds ? std::fabs(t - kReversal) : t;
+      const auto wrapped = [&](double x, double size) {
+        return x - (size + 2 * margin) * std::floor(x / (size + 2 * margin)) - margin;
+      };
+      out.push_back({float(wrapped(s.start.x + path * s.velocity.x, v.width)),
+                     float(wrapped(s.start.y + path * s.velocity.y, v.height))});
+    }
+    return out;
+  };
+  return v;
+}
+
+/// Cells on the dark line along the edge of a drop, one after another. Every second one leaves it to the
+/// right after the reversal; the others stay.
+RenderedVideo at_the_edge(double speed_px_s) {
+  RenderedVideo v;
+  v.frames = 60;
+  v.microscope.cell_diameter = 2.5e-6;
+  v.edge = {{590, 119.5}, 550};
+  cells::Dice dice(7);
+  std::vector<Vec2> starts;
+  std::vector<double> speeds;
+  for (double y = 20; y < 220; y += 3) {
+    const double depth = 1 + dice.uniform(), inner = v.edge.radius - depth, dy = y - v.edge.centre.y;
+    starts.push_back({v.edge.centre.x - std::sqrt(inner * inner - dy * dy), y});
+    speeds.push_back(starts.size() % 2 ? speed_px_s * (1 + 0.24 * dice.normal()) : 0);
+  }
+  v.cells = [starts, speeds](double t) {
+    std::vector<CameraCell> out;
+    for (std::size_t i = 0; i < starts.size(); ++i)
+      out.push_back({float(starts[i].x + std::max(0.0, t - kReversal) * speeds[i]), float(starts[i].y)});
+    return out;
+  };
+  return v;
+}
+
+std::optional<Response> measured(const RenderedVideo& v, double direction_deg = 0,
+                                 double reversal_s = kReversal) {
+  const test::TemporaryFolder folder("response");
+  write_rendered(v, folder.path() / "v.avi");
+  ResponseJob job;
+  job.video = folder.path() / "v.avi";
+  job.reversal_s = reversal_s;
+  job.direction_deg = direction_deg;
+  job.frame_s = 1 / v.fps;
+  job.threads = 1;
+  return measure_response(job);
+}
+
+}  // namespace
+
+// 186 um/s at 0.92 um per px and 15 frames per second.
+TEST_CASE("response: fraction and speed of cells that move by 13 px between frames") {
+  for (const double fraction : {0.5, 0.8}) {
+    const double speed = 202;
+    const auto r = measured(swarm(200, fraction, speed, 3));
+    REQUIRE(r);
+    CHECK(r->responds);
+    REQUIRE(r->flow);
+    CHECK_FALSE(r->flow->valid());
+    REQUIRE(r->fraction);
+    CHECK(std::fabs(r->fraction->value - fraction) < 0.1);
+    REQUIRE(r->speed_px_s);
+    CHECK(std::fabs(r->speed_px_s->value / speed - 1) < 0.1);
+  }
+}
+
+TEST_CASE("response: none of cells that swim in random directions") {
+  const auto r = measured(swarm(200, 0, 202, 4));
+  REQUIRE(r);
+  CHECK_FALSE(r->responds);
+  REQUIRE(r->fraction);
+  CHECK(r->fraction->value == 0);
+  CHECK_FALSE(r->speed_px_s);
+}
+
+// Cells absorb less light on the dark edge, and overlap. The fraction must not depend on either.
+TEST_CASE("response: cells that stay on the dark edge of a drop are as many as those that leave it") {
+  const double speed = 60;
+  const auto r = measured(at_the_edge(speed));
+  REQUIRE(r);
+  REQUIRE(r->fraction);
+  CHECK(std::fabs(r->fraction->value - 0.5) < 0.1);
+  REQUIRE(r->speed_px_s);
+  CHECK(std::fabs(r->speed_px_s->value / speed - 1) < 0.1);
+}
+
+TEST_CASE("response: a wrong direction and a wrong time are named, and no response is without warning") {
+  for (const double direction : {90, 180}) {
+    const auto r = measured(swarm(200, 0.8, 202, 3), direction);
+    REQUIRE(r);
+    CHECK_FALSE(r->responds);
+    REQUIRE(r->other_direction_deg);
+    CHECK(std::fabs(std::remainder(*r->other_direction_deg, 360)) < 30);
+    const auto warning = no_response_warning(*r);
+    REQUIRE(warning);
+    CHECK(warning->aspect == "direction");
+    CHECK(warning->quality == Quality::poor);
+  }
+  RenderedVideo longer = swarm(200, 0.8, 202, 3);
+  longer.frames = 75;
+  const auto late = measured(longer, 0, 2.5);
+  REQUIRE(late);
+  CHECK_FALSE(late->responds);
+  const auto warning = no_response_warning(*late);
+  REQUIRE(warning);
+  CHECK(warning->aspect == "timing");
+  const auto none = measured(swarm(200, 0, 202, 4));
+  REQUIRE(none);
+  CHECK_FALSE(no_response_warning(*none));
+}
