@@ -134,3 +134,8 @@ def command(pid):
 
 def environment(pid):
     return read(f"/proc/{pid}/environ")
+
+
+def parent(pid):
+    """Process id of the parent of a process."""
+    return int(read(f"/proc/{pid}/stat").rsplit(")", 1)[1].split()[1])

@@ -55,7 +55,6 @@ class DaskEngine final : public Engine {
   }
 
   unsigned slots() const override { return slots_; }
-  bool queues() const override { return false; }
   double period_s() const override { return 0.02; }
 
   bool submit(std::span<const Attempt> attempts) override {

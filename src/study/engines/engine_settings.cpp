@@ -45,6 +45,13 @@ Schema<EngineSettings> EngineSettings::schema() {
       .add("python", &E::python, {.doc = "dask: Python interpreter that has the package distributed"});
 }
 
+Json engine_file_schema() {
+  return {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+          {"type", "object"},
+          {"properties", {{"engine", EngineSettings::schema().json_schema()}}},
+          {"required", {"engine"}}};
+}
+
 std::string engine_name(EngineType type) { return kEngines[std::size_t(type)]; }
 
 EngineSettings engine_settings(const std::string& engine, const std::vector<std::string>& options) {

@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include <fstream>
+#include <limits>
 #include <map>
 
 #include "core/child.h"
@@ -44,6 +45,11 @@ class ParallelEngine final : public Engine {
 
   unsigned slots() const override { return slots_; }
   bool queues() const override { return true; }
+  // One call at a time: two would start twice as many workers.
+  std::size_t accepts(std::size_t running, bool measured) const override {
+    if (running > 0) return 0;
+    return measured ? std::numeric_limits<std::size_t>::max() : slots_;
+  }
   double period_s() const override { return 0.1; }
 
   bool submit(std::span<const Attempt> attempts) override {

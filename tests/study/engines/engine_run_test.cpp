@@ -27,7 +27,6 @@ class TestEngine final : public Engine {
   int exit_of_all = 0;
 
   unsigned slots() const override { return 2; }
-  bool queues() const override { return false; }
   double period_s() const override { return 0.001; }
   void cancel() override {}
   bool submit(std::span<const Attempt> attempts) override {
