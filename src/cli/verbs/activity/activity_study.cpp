@@ -153,9 +153,14 @@ int activity_on_engine(const ActivityVerb& v, const Common& c) {
   study.engine = v.engine;
   const SweepOptions options = sweep_options(study);
   ActivityStudyJob job({"activity", {}, {}, given_words(*c.verb, {"--folder", "--out", "--report"})});
-  Common quiet = c;
-  quiet.quiet = true;  // the output is that of the command without an engine
-  const int code = run_study_verb(job, study, options, c.json ? quiet : c);
+  Common text = c;
+  if (c.json) {  // its output is that of the command without an engine
+    text.json = false;
+    text.quiet = true;
+  }
+  const int code = run_study_verb(job, study, options, text);
+  if (c.json)
+    fmt::print("{}\n", nlohmann::ordered_json::parse(read_file(study.out / "activity.json")).dump());
   for (const auto& [to, name] : {std::pair{v.out, "activity.csv"}, std::pair{v.report, "activity.html"}})
     if (!to.empty()) {
       write_file(to, read_file(study.out / name));
