@@ -153,7 +153,7 @@ TEST_CASE("NaN is stored; damaged files and those of other studies and programs 
   std::memcpy(by_other.data() + 60, &sum, 4);
   std::filesystem::create_directories(f / "t");
   write_file(f / "t/a.results", by_other);
-  CHECK_THROWS_WITH(ResultStore(f / "t", "study"), doctest::Contains("this is faba " + version));
+  CHECK_THROWS_WITH(ResultStore(f / "t", "study"), doctest::Contains(("this is faba " + version).c_str()));
 
   CHECK_THROWS_WITH(ResultStore(f / "r", "another"), doctest::Contains("a different study"));
   std::string content = read_file(file);
