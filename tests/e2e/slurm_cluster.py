@@ -109,12 +109,22 @@ class Cluster:
                 pass
 
     def stop(self):
+        """Ends all daemons, and returns when they do not write to the folder any more."""
         subprocess.run(["scancel", "--user", "root"], capture_output=True)
+        daemons = []
         for name in ["slurmctld", *(f"slurmd-{n}" for n in NODES)]:
             try:
-                os.kill(self.daemon(name), signal.SIGTERM)
+                daemons.append(self.daemon(name))
+                os.kill(daemons[-1], signal.SIGTERM)
             except (FileNotFoundError, ProcessLookupError, ValueError):
                 pass
+        for pid in daemons:
+            for _ in range(100):
+                if not os.path.exists(f"/proc/{pid}"):
+                    break
+                time.sleep(0.1)
+            else:
+                os.kill(pid, signal.SIGKILL)
 
 
 def processes():

@@ -367,7 +367,7 @@ def main():
     parser.add_argument("--only", action="append", default=[])
     options = parser.parse_args()
     wanted = lambda name: not options.only or name in options.only
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         test = Test(options.program.resolve(), folder)
         test.write_studies(150, 60, "3 s")
         test.videos_in_one_process()

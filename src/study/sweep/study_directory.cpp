@@ -108,7 +108,8 @@ bool holds_complete_study(const fs::path& dir, const std::string& study_hash) {
 
 StudyDirectory::~StudyDirectory() {
   if (!new_ || complete_ || !results_ || !results_->empty()) return;
-  if (fs::exists(dir_ / kRounds) || fs::exists(dir_ / kResults)) return;
+  for (const char* name : {kRounds, kResults, kJobs})
+    if (fs::exists(dir_ / name)) return;
   results_.reset();
   lock_.complete();
   std::error_code ignored;

@@ -55,7 +55,7 @@ class StudyDirectory {
   /// it. With `force` the results of a different study are deleted; those of the same study are used.
   StudyDirectory(const std::filesystem::path& dir, const std::string& study_hash,
                  const std::string& resume_command, bool force, StudySource source = {});
-  /// Deletes a directory that was created for a study that has neither results nor a round.
+  /// Deletes a directory that was created for a study that has neither results nor a round nor jobs.
   ~StudyDirectory();
   StudyDirectory(StudyDirectory&&) = default;
 
