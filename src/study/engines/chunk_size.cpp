@@ -26,8 +26,7 @@ std::uint64_t ChunkSize::tasks() const {
   const double per_task = std::max(*seconds, 1e-7), work = each * per_task;
   const double time = std::clamp(work * (queues ? kGuidedQueued : kGuided),
                                  queues ? kShortestQueued : kShortestChunk, kLongestChunk);
-  const auto most = std::min(std::uint64_t(each), kMostChunkTasks);  // every worker gets some
-  return std::clamp<std::uint64_t>(std::uint64_t(time / per_task), 1, std::max<std::uint64_t>(1, most));
+  return std::clamp<std::uint64_t>(std::uint64_t(time / per_task), 1, std::min(open, kMostChunkTasks));
 }
 
 }  // namespace faba

@@ -115,13 +115,14 @@ void EngineRun::fill(State& s) {
   if (const std::size_t most = engine_->accepts(s.running.size(), measured); most > 0) submit(s, most);
 }
 
-// At most `most` attempts.
+// At most `most` attempts, of equal size.
 void EngineRun::submit(State& s, std::size_t most) {
   std::vector<Running> next;
-  const std::optional<double> seconds = s.store.seconds_per_task(s.key);
+  const std::uint64_t open = s.queue.size(), workers = std::min<std::size_t>(most, engine_->slots());
+  const ChunkSize size{open, engine_->slots(), s.store.seconds_per_task(s.key), engine_->queues()};
+  const std::uint64_t each = std::min(size.tasks(), (open + workers - 1) / workers);  // work for all of them
   while (!s.queue.empty() && next.size() < most) {
-    const ChunkSize size{s.queue.size(), engine_->slots(), seconds, engine_->queues()};
-    Running r = next_attempt(s, size.tasks());
+    Running r = next_attempt(s, each);
     if (!r.tasks.empty()) next.push_back(std::move(r));
   }
   if (next.empty()) return;
