@@ -127,7 +127,7 @@ def engines(b):
     for name, workers, goal in (("local", 2, 10), ("parallel", 2, None), ("dask", 2, None), ("slurm", 3, 25)):
         if name not in b.o.engines.split(","):
             continue
-        why = missing(name)
+        why = slurm_cluster.missing() if name == "slurm" else slurm_cluster.missing_package(name)
         if why:
             b.add(f"| {name} | {workers} | | | SKIPPED: {why} | | | |")
             continue
@@ -143,16 +143,6 @@ def engines(b):
         ideal = task_times(b.folder / f"on-{name}/results")[0] / workers
         over = 100 * (job.s / ideal - 1)
         b.add(f"| {name} | {workers} | {1e3 * ideal * workers / number:.1f} | {ideal:.1f} | {job.s:.1f} | {over:.0f} % | {'' if goal is None else f'{goal} %, ' + ('met' if over <= goal else 'NOT MET')} | {attempts} |")
-
-
-def missing(name):
-    if name == "slurm":
-        return slurm_cluster.missing()
-    if name == "parallel" and not shutil.which("parallel"):
-        return "GNU parallel is not installed"
-    if name == "dask" and subprocess.run(["/usr/bin/python3", "-c", "import distributed"], capture_output=True).returncode:
-        return "python3-distributed is not installed"
-    return ""
 
 
 def trivial(b):

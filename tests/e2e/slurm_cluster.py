@@ -49,6 +49,15 @@ def missing():
     return "" if os.geteuid() == 0 else "Slurm daemons need root"
 
 
+def missing_package(engine):
+    """What another engine needs and is not installed; empty if nothing."""
+    if engine == "parallel" and not shutil.which("parallel"):
+        return "GNU parallel is not installed"
+    if engine == "dask" and subprocess.run(["/usr/bin/python3", "-c", "import distributed"], capture_output=True).returncode:
+        return "python3-distributed is not installed"
+    return ""
+
+
 class Cluster:
     def __init__(self, folder):
         self.dir = pathlib.Path(folder)

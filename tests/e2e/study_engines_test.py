@@ -381,11 +381,8 @@ def main():
         for name, extra in (("local", ("--workers", 2)), ("parallel", ("--workers", 2)), ("dask", ("--workers", 3))):
             if not wanted(name):
                 continue
-            if name == "parallel" and not shutil.which("parallel"):
-                test.skip("parallel: GNU parallel is not installed")
-                continue
-            if name == "dask" and subprocess.run(["/usr/bin/python3", "-c", "import distributed"], capture_output=True).returncode:
-                test.skip("dask: python3-distributed is not installed")
+            if why := slurm_cluster.missing_package(name):
+                test.skip(f"{name}: {why}")
                 continue
             test.engine(name, *extra)
             if options.kills:

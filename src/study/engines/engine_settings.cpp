@@ -17,7 +17,7 @@ constexpr std::array kEngines = {"local", "parallel", "slurm", "dask"};
 
 Schema<EngineSettings> EngineSettings::schema() {
   using E = EngineSettings;
-  return Schema<E>("engine", "Where the simulations of a study run")
+  return Schema<E>("engine", "Where the tasks of a study run")
       .add(
           "type", &E::type,
           {.doc = "local: processes on this machine; parallel: GNU parallel; slurm: array jobs; dask: a Dask "

@@ -123,29 +123,30 @@ StudyDirectory::StudyDirectory(const fs::path& dir, const std::string& study_has
     : dir_(dir), study_hash_(study_hash), source_(std::move(source)) {
   std::error_code ec;
   if (fs::exists(fs::symlink_status(dir)) && !fs::is_directory(dir))
-    throw Error(Errc::usage, dir.string(), "exists and is not a directory; choose another --out");
+    throw Error(Errc::usage, dir.string(), "exists and is not a directory; choose another directory");
   new_ = !fs::is_directory(dir);
   if (new_) fs::create_directories(dir, ec);
   if (!fs::is_directory(dir))
     throw Error(Errc::internal, dir.string(),
-                fmt::format("the directory cannot be created: {}; choose another --out", ec.message()));
+                fmt::format("the directory cannot be created: {}; choose another directory", ec.message()));
   const auto existing = hash_of_study_in(dir);
   if (!existing && !fs::is_empty(dir, ec))
-    throw Error(Errc::usage, dir.string(), "contains other files and no study; choose another --out");
+    throw Error(Errc::usage, dir.string(), "contains other files and no study; choose another directory");
   const bool same = existing == study_hash && version_in(dir) == program_version();
   if (existing == study_hash && !same && !force)
     throw Error(
         Errc::usage, dir.string(),
         fmt::format(
             "contains results of this study by faba {}, this is faba {}; continue it with that program, "
-            "choose another --out, or --force to compute it again",
+            "choose another directory, or --force to compute it again",
             version_in(dir), program_version()));
   if (existing && !same && !force)
     throw Error(Errc::usage, dir.string(),
-                "contains a different study; choose another --out, or --force to replace it");
+                "contains a different study; choose another directory, or --force to replace it");
   if (same && !fs::exists(dir / kMarker) && !force)
-    throw Error(Errc::usage, dir.string(),
-                "the study is already complete; choose another --out, or --force to write its pages again");
+    throw Error(
+        Errc::usage, dir.string(),
+        "the study is already complete; choose another directory, or --force to write its pages again");
   lock_ =
       FileLock(dir / kMarker, dir,
                fmt::format("This study is not complete. Resume it with: {}\n", resume_command), Errc::busy);
