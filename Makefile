@@ -19,7 +19,9 @@ test:                 ## build and run all tests
 
 test-engines: build   ## install Slurm, Dask and GNU parallel, and test studies on each, also with workers, nodes and the command killed
 	@$(SETUP) engines
-	@/usr/bin/python3 tests/e2e/study_engines_test.py --program build/faba --kills
+	@# Exit code 77: nothing failed, but checks could not run; they are printed.
+	@/usr/bin/python3 tests/e2e/study_engines_test.py --program build/faba --kills || \
+	  { code=$$?; [ $$code -eq 77 ] || exit $$code; echo "make test-engines: some checks were SKIPPED; their reasons are above"; }
 
 setup:                ## install the packages for building (apt-get; with sudo if not root)
 	@$(SETUP)
@@ -38,6 +40,8 @@ bench: build          ## measure speed and compare it with NumPy, Octave and har
 	@/usr/bin/python3 bench/study.py
 	@/usr/bin/python3 bench/loop.py
 	@/usr/bin/python3 bench/jobs.py
+	@$(SETUP) engines
+	@/usr/bin/python3 bench/engines.py
 	@node bench/lab.mjs --program build/faba --root . --out bench/results/lab.md
 
 accuracy: build       ## test measurements on rendered videos with known ground truth; with SEEDS=20 EXPERIMENTS=40: two hours

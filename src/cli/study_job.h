@@ -10,8 +10,8 @@ namespace faba::cli {
 
 struct Common;
 
-/// A study of many simulations: what its verb computes, and what `faba study` plans, works on and collects.
-/// Each kind of study has one class, in the file of its verb.
+/// A study of many simulations or videos: what its verb computes, and what `faba study` plans, works on and
+/// collects. Each kind of study has one class, in the file of its verb.
 class StudyJob {
  public:
   virtual ~StudyJob() = default;
@@ -37,6 +37,8 @@ class StudyJob {
 /// of reading the study.
 std::unique_ptr<StudyJob> identify_job(const StudySource& source, bool needs_inputs);
 std::unique_ptr<StudyJob> controllers_job(const StudySource& source);
+std::unique_ptr<StudyJob> track_job(const StudySource& source);
+std::unique_ptr<StudyJob> activity_job(const StudySource& source);
 
 /// The job for the verb of the source.
 std::unique_ptr<StudyJob> study_job(const StudySource& source, bool needs_inputs);

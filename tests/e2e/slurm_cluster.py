@@ -49,6 +49,15 @@ def missing():
     return "" if os.geteuid() == 0 else "Slurm daemons need root"
 
 
+def missing_package(engine):
+    """What another engine needs and is not installed; empty if nothing."""
+    if engine == "parallel" and not shutil.which("parallel"):
+        return "GNU parallel is not installed"
+    if engine == "dask" and subprocess.run(["/usr/bin/python3", "-c", "import distributed"], capture_output=True).returncode:
+        return "python3-distributed is not installed"
+    return ""
+
+
 class Cluster:
     def __init__(self, folder):
         self.dir = pathlib.Path(folder)
@@ -109,12 +118,22 @@ class Cluster:
                 pass
 
     def stop(self):
+        """Ends all daemons, and returns when they do not write to the folder any more."""
         subprocess.run(["scancel", "--user", "root"], capture_output=True)
+        daemons = []
         for name in ["slurmctld", *(f"slurmd-{n}" for n in NODES)]:
             try:
-                os.kill(self.daemon(name), signal.SIGTERM)
+                daemons.append(self.daemon(name))
+                os.kill(daemons[-1], signal.SIGTERM)
             except (FileNotFoundError, ProcessLookupError, ValueError):
                 pass
+        for pid in daemons:
+            for _ in range(100):
+                if not os.path.exists(f"/proc/{pid}"):
+                    break
+                time.sleep(0.1)
+            else:
+                os.kill(pid, signal.SIGKILL)
 
 
 def processes():
@@ -134,3 +153,8 @@ def command(pid):
 
 def environment(pid):
     return read(f"/proc/{pid}/environ")
+
+
+def parent(pid):
+    """Process id of the parent of a process."""
+    return int(read(f"/proc/{pid}/stat").rsplit(")", 1)[1].split()[1])

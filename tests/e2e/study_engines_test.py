@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 """Studies on engines: `faba identify` and `faba compare-controllers` by plan, work and collect, and with --engine local, parallel,
-dask and slurm, give the files of one process byte by byte. With --kills, processes of each kind are killed in the middle, twice
-each. Engines whose packages are missing are skipped; the exit code is then 77.
+dask and slurm, give the files of one process byte by byte, and so do `faba activity` and `faba track` with several videos. With
+--kills, processes of each kind are killed in the middle, twice each. A task has no process of its own: it runs in its worker, so
+that killing `faba study work` kills a task, and killing its parent process (of Dask, of GNU parallel, or the slurmd of a node)
+what started it. Engines whose packages are missing are skipped; the exit code is then 77.
 
     study_engines_test.py --program build/faba [--kills] [--only NAME]..."""
 
@@ -80,6 +82,9 @@ type = "proportional"
 """
 OUTPUTS = ("identify.json", "identify.html", "best.toml", "background.png", "controllers.json", "controllers.csv", "report.html")
 VERB = {"identify": "identify", "controllers": "compare-controllers"}
+VIDEOS = ("film/video.avi", "film-2/video.avi", "film-3/video.avi")
+TRACK = ("track", *VIDEOS, "--um-per-px", "1.2", "--out", "tracks.csv", "--report", "tracks.html", "--quiet")
+ACTIVITY = ("activity", *VIDEOS, "--reversal", "0.6 s")
 
 
 class Test:
@@ -107,8 +112,9 @@ class Test:
         (self.folder / "identify.toml").write_text(IDENTIFY.replace("SIMULATIONS", str(simulations)))
         (self.folder / "steer.toml").write_text(STEER.replace("DURATION", duration))
         (self.folder / "controllers.toml").write_text(CONTROLLERS.replace("SEEDS", str(seeds)))
-        done = self.faba("run", "film.toml", "--seed", 3, "--quiet", "--force", "--out", "film")
-        assert done.returncode == 0, done.stderr
+        for k, video in enumerate(VIDEOS):
+            done = self.faba("run", "film.toml", "--seed", 3 + k, "--quiet", "--force", "--out", pathlib.Path(video).parent)
+            assert done.returncode == 0, done.stderr
         for study, verb in VERB.items():
             done = self.faba(verb, f"{study}.toml", "--quiet", "--force", "--out", f"{study}-one")
             assert done.returncode == 0, done.stderr
@@ -186,6 +192,45 @@ class Test:
             refused = self.faba("study", *arguments)
             self.check(refused.returncode == 2 and "0.0.1" in refused.stderr, f"another version is refused: {refused.stderr.strip()}")
 
+    # --- videos ------------------------------------------------------------------------------------------------------
+
+    def activity_outputs(self, out, *options):
+        done = self.faba(*ACTIVITY, "--json", "--force", "--out", f"{out}.csv", "--report", f"{out}.html", *options)
+        self.check(done.returncode == 0, f"activity, {out} {done.stderr}")
+        return done.stdout, (self.folder / f"{out}.csv").read_bytes(), (self.folder / f"{out}.html").read_bytes()
+
+    def track_outputs(self, out, *options):
+        done = self.faba(*TRACK, "--folder", out, *options)
+        self.check(done.returncode == 0, f"track, {out} {done.stderr}")
+        files = [f for f in (self.folder / out).rglob("*") if f.is_file() and (f.parent.parent.name == "videos" or f.name == "tracks.json")]
+        self.check(len(files) == 3 * len(VIDEOS) + 1, f"track, {out}: {len(files)} files")
+        return {str(f.relative_to(self.folder / out)): f.read_bytes() for f in files}
+
+    def videos_in_one_process(self):
+        self.activity_one, self.tracks_one = self.activity_outputs("activity-one"), self.track_outputs("tracks-one")
+        single = self.faba("track", VIDEOS[1], "--um-per-px", "1.2", "--out", "single.csv", "--report", "single.html", "--json")
+        self.check(self.tracks_one["videos/video-2/track.json"].decode() == single.stdout
+                   and all(self.tracks_one[f"videos/video-2/tracks.{e}"] == (self.folder / f"single.{e}").read_bytes() for e in ("csv", "html")),
+                   f"track: several videos give the files of each alone {single.stderr}")
+        self.broken()
+
+    def broken(self):
+        """A video that cannot be read is named; the results of all others are kept, and no other is computed again."""
+        (self.folder / "broken.avi").write_bytes(b"no video")
+        command = ("track", VIDEOS[0], "broken.avi", VIDEOS[1], "--folder", "broken", "--quiet")
+        for options in ((), ("--engine", "local")):
+            done = self.faba(*command, *options)
+            self.check(done.returncode in (1, 3) and "broken.avi" in done.stderr and "1 of 3" in done.stderr, f"track, a broken video: {done.stderr.strip()}")
+            found = json.loads((self.folder / "broken/tracks.json").read_text())
+            self.check(len(found["videos"]) == 2 and found["without_result"] == ["broken.avi"], "track, a broken video: the others are kept")
+        done = self.faba("activity", VIDEOS[0], "broken.avi", VIDEOS[1], "--engine", "local", "--folder", "broken-activity", "--json")
+        self.check(done.returncode == 1 and "broken.avi" in done.stderr, f"activity, a broken video: {done.stderr.strip()}")
+
+    def engine_for_videos(self, name, *options):
+        self.check(self.activity_outputs(f"activity-{name}", "--engine", name, "--folder", f"activity-{name}", *options) == self.activity_one,
+                   f"{name}, activity: output and files equal those of one process")
+        self.check(self.track_outputs(f"tracks-{name}", "--engine", name, *options) == self.tracks_one, f"{name}, track: files equal those of one process")
+
     # --- engines ---------------------------------------------------------------------------------------------------
 
     def engine(self, name, *options):
@@ -196,6 +241,7 @@ class Test:
             self.check(done.returncode == 0, f"{name}, {study}: {time.time() - begin:.1f} s {done.stderr}")
             self.equal(study, out, f"{name}, {study}")
             self.check("submitted" in (self.folder / out / "attempts.csv").read_text(), f"{name}, {study}: attempts are logged")
+        self.engine_for_videos(name, *options)
 
     def workers(self, out):
         """Processes of workers of a study."""
@@ -227,6 +273,8 @@ class Test:
         self.equal("controllers", out, f"{name}, workers killed")
         self.check("left tasks" in (self.folder / out / "attempts.csv").read_text(), f"{name}: the log names the attempts that left tasks")
         shutil.rmtree(self.folder / out)
+        if name in ("dask", "parallel"):
+            self.kill_parents(name, out, command)
         for size in (100, 20000):
             run = self.start(*command)
             self.wait_for_results(out, size)
@@ -238,6 +286,22 @@ class Test:
         done = self.faba(*command)
         self.check(done.returncode == 0, f"{name}: started again after two kills {done.stderr}")
         self.equal("controllers", out, f"{name}, command killed")
+
+
+    def kill_parents(self, name, out, command):
+        """The process of Dask or GNU parallel that started a worker is killed twice."""
+        run = self.start(*command)
+        killed = 0
+        for size in (100, 20000):
+            self.wait_for_results(out, size)
+            for parent in [slurm_cluster.parent(worker) for worker in self.workers(out)][:1]:
+                os.kill(parent, signal.SIGKILL)
+                killed += 1
+            time.sleep(1)
+        code = run.wait()
+        self.check(code == 0 and killed == 2, f"{name}: parents of {killed} workers killed, exit code {code} {run.stderr.read()}")
+        self.equal("controllers", out, f"{name}, parents of workers killed")
+        shutil.rmtree(self.folder / out)
 
 
 def run_slurm(test, kills):
@@ -303,9 +367,10 @@ def main():
     parser.add_argument("--only", action="append", default=[])
     options = parser.parse_args()
     wanted = lambda name: not options.only or name in options.only
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         test = Test(options.program.resolve(), folder)
         test.write_studies(150, 60, "3 s")
+        test.videos_in_one_process()
         if wanted("hand"):
             for study in VERB:
                 test.by_hand(study)
@@ -316,11 +381,8 @@ def main():
         for name, extra in (("local", ("--workers", 2)), ("parallel", ("--workers", 2)), ("dask", ("--workers", 3))):
             if not wanted(name):
                 continue
-            if name == "parallel" and not shutil.which("parallel"):
-                test.skip("parallel: GNU parallel is not installed")
-                continue
-            if name == "dask" and subprocess.run(["/usr/bin/python3", "-c", "import distributed"], capture_output=True).returncode:
-                test.skip("dask: python3-distributed is not installed")
+            if why := slurm_cluster.missing_package(name):
+                test.skip(f"{name}: {why}")
                 continue
             test.engine(name, *extra)
             if options.kills:

@@ -12,7 +12,7 @@ namespace faba::cli {
 void add_engine_options(CLI::App* v, EngineOptions& o) {
   v->add_option(
        "--engine", o.engine,
-       "Where the simulations run: local (processes on this machine), parallel (GNU parallel), slurm, "
+       "Where the tasks of the study run: local (processes on this machine), parallel (GNU parallel), slurm, "
        "dask, or a TOML file with a table [engine]; default: threads of this process")
       ->check(not_empty);
   v->add_option("--engine-set", o.set, "Set a value of the table [engine], such as partition=short")
@@ -55,7 +55,7 @@ EngineStart::EngineStart(EngineOptions options, std::filesystem::path dir, std::
       dir_(std::filesystem::absolute(dir)),
       study_hash_(std::move(study_hash)),
       quiet_(c.quiet),
-      bar_("simulating", !c.quiet && !c.json) {}
+      bar_("computing", !c.quiet && !c.json) {}
 
 bool EngineStart::operator()(const Round& round, ResultStore& store) {
   if (!run_) {

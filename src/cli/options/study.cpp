@@ -52,9 +52,12 @@ void print_complete(const std::filesystem::path& out, const nlohmann::ordered_js
 // Opens the directory of the study and imports the results of others.
 StudyDirectory open_study(const StudyOptions& v, const StudyJob& job) {
   const std::filesystem::path out = out_of(v);
-  const std::string again = fmt::format("{} {} {} --out {}", shell_word(program()), job.source().verb,
-                                        shell_word(v.study.string()), shell_word(out.string()));
-  StudyDirectory dir(out, job.hash(), again, v.force, job.source());
+  const StudySource source = job.source();
+  std::string again = shell_word(program()) + " " + source.verb;
+  for (const std::string& word : source.file.empty() ? source.options : std::vector{v.study.string()})
+    again += " " + shell_word(word);
+  again += (source.file.empty() ? " --folder " : " --out ") + shell_word(out.string());
+  StudyDirectory dir(out, job.hash(), again, v.force, source);
   dir.merge(v.merge);
   return dir;
 }

@@ -6,6 +6,7 @@
 #include "app/scenario/scenario_schema.h"
 #include "app/sinks/series_columns.h"
 #include "cli/command_line.h"
+#include "study/engines/engine_settings.h"
 #include "study/identify/identify.h"
 #include "study/motion/activity_study.h"
 #include "study/steering/controller_study.h"
@@ -38,6 +39,7 @@ int schema(const std::string& file, const Common& c) {
                  : file == "compare-controllers" ? controller_study_schema()
                  : file == "activity"            ? activity_study_schema()
                  : file == "moment"              ? moment_study_schema()
+                 : file == "engine"              ? engine_file_schema()
                                                  : scenario_json_schema(parts);
   fmt::print("{}\n", j.dump(2));
   return 0;
@@ -50,10 +52,12 @@ void add_schema(CLI::App& app, CommandLine& line) {
                      "Print the JSON Schema of a scenario, coil system or study file, for editors and forms",
                      "  faba schema > scenario.json\n  faba schema rig > rig.json\n  faba schema series");
   const auto of = std::make_shared<std::string>("scenario");
-  v->add_option("kind", *of,
-                "Kind of file: scenario (default) or rig; the verb that reads the study file; or series, "
-                "which lists the columns of series.csv")
-      ->check(one_of({"scenario", "rig", "identify", "compare-controllers", "activity", "moment", "series"}));
+  v->add_option(
+       "kind", *of,
+       "Kind of file: scenario (default), rig or engine; the verb that reads the study file; or series, "
+       "which lists the columns of series.csv")
+      ->check(one_of(
+          {"scenario", "rig", "identify", "compare-controllers", "activity", "moment", "engine", "series"}));
   v->callback([of, &line] { line.code = schema(*of, line.common); });
 }
 

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "study/engines/engine.h"
+
 namespace faba {
 namespace {
 
-constexpr double kShortestChunk = 1, kLongestChunk = 60;  // s
+// s. The start of a worker takes about 0.1 s, by a queue about 1 s.
+constexpr double kShortestChunk = 1, kShortestQueued = 5, kLongestChunk = 60;
 // Each worker takes this fraction of its part of the open work; the next one takes less.
-constexpr double kGuided = 0.5;
-// With a queue all chunks have one size: this number for each worker evens out their differences.
-constexpr double kChunksPerSlot = 4;
+constexpr double kGuided = 0.5, kGuidedQueued = 1.0 / Engine::kQueuedPerSlot;
 constexpr std::uint64_t kMostUnmeasured = 20, kMostChunkTasks = 100000;
 
 }  // namespace
@@ -18,13 +19,13 @@ constexpr std::uint64_t kMostUnmeasured = 20, kMostChunkTasks = 100000;
 std::uint64_t ChunkSize::tasks() const {
   const double each = std::ceil(double(open) / std::max(1U, slots));  // tasks per worker
   if (!seconds) {
-    // One task for each worker measures the time; in a queue that would need a second submission.
-    const double unmeasured = queues ? std::ceil(each / kChunksPerSlot) : 1;
+    // One task for each worker measures the time; workers that wait in a queue get more.
+    const double unmeasured = queues ? std::ceil(each * kGuidedQueued) : 1;
     return std::clamp<std::uint64_t>(std::uint64_t(unmeasured), 1, kMostUnmeasured);
   }
   const double per_task = std::max(*seconds, 1e-7), work = each * per_task;
-  const double time =
-      std::clamp(queues ? work / kChunksPerSlot : work * kGuided, kShortestChunk, kLongestChunk);
+  const double time = std::clamp(work * (queues ? kGuidedQueued : kGuided),
+                                 queues ? kShortestQueued : kShortestChunk, kLongestChunk);
   return std::clamp<std::uint64_t>(std::uint64_t(time / per_task), 1, std::min(open, kMostChunkTasks));
 }
 

@@ -55,7 +55,6 @@ class DaskEngine final : public Engine {
   }
 
   unsigned slots() const override { return slots_; }
-  bool queues() const override { return false; }
   double period_s() const override { return 0.02; }
 
   bool submit(std::span<const Attempt> attempts) override {
@@ -77,8 +76,10 @@ class DaskEngine final : public Engine {
       ends.push_back({id, exit < 0 ? fmt::format("signal {}", -exit) : end_text(exit), exit < 0 ? -1 : exit});
     }
     if (over_ && !running_.empty())
-      throw Error(Errc::internal, log_.string(),
-                  "the program that uses Dask has ended; run the same command again to continue");
+      throw Error(
+          Errc::internal, log_.string(),
+          fmt::format("the program that uses Dask has ended ({}); run the same command again to continue",
+                      last_message(log_)));
     return ends;
   }
 
@@ -90,7 +91,8 @@ class DaskEngine final : public Engine {
     while (next_line(line, kStartTimeout))
       if (std::sscanf(line.c_str(), "slots %u", &slots_) == 1) return;
     throw Error(Errc::internal, "--engine dask",
-                fmt::format("no Dask cluster could be started or reached; see {}", log_.string()));
+                fmt::format("no Dask cluster could be started or reached ({}); see {}", last_message(log_),
+                            log_.string()));
   }
 
   // The next line of the program; false when no line comes within `timeout` ms.

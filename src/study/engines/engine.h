@@ -30,12 +30,16 @@ struct AttemptEnd {
 /// end; it transports no results, which workers write to files.
 class Engine {
  public:
+  /// Attempts in a queue for each worker: they even out the differences of the workers.
+  static constexpr unsigned kQueuedPerSlot = 4;
   virtual ~Engine() = default;
   /// Number of workers that run at a time.
   virtual unsigned slots() const = 0;
-  /// Whether attempts wait in a queue of the engine: then all tasks are submitted at once. Otherwise an
-  /// attempt is submitted when a worker is free.
-  virtual bool queues() const = 0;
+  /// Whether attempts can wait in a queue of the engine, because its workers start late.
+  virtual bool queues() const { return false; }
+  /// Number of attempts that the engine accepts while `running` run or wait. `measured`: whether the time of
+  /// a task is known, so that many attempts can be submitted in a suitable size.
+  virtual std::size_t accepts(std::size_t running, bool measured) const;
   /// Starts the workers of these attempts. False when the engine does not accept them at the moment.
   virtual bool submit(std::span<const Attempt> attempts) = 0;
   /// The attempts that ended since the last call.

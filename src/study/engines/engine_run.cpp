@@ -22,6 +22,8 @@ constexpr double kTroublePeriod = 30;  // s, between two notes on what hinders t
 constexpr double kRetryPeriod = 5;     // s, between two submissions that the engine does not accept
 constexpr int kUsageExit = 2;          // of a worker that refuses the study
 constexpr int kMostFruitless = 30;     // workers in succession that end without a result
+// Ranges in the list of tasks of a worker: the list is one word of a command, at most 128 KiB on Linux.
+constexpr std::size_t kMostRanges = 5000;
 
 // First line of the messages of a worker.
 std::string first_line(const fs::path& file) {
@@ -45,8 +47,9 @@ struct EngineRun::State {
   ResultStore& store;
   PlannedRound planned;
   std::uint64_t key = 0;
-  std::deque<std::uint64_t> queue = {};  ///< tasks that no worker has, in their order
-  std::set<std::uint64_t> open = {};     ///< tasks without a result that have not failed
+  std::deque<std::uint64_t> queue = {};  ///< tasks that no worker has; they can have a result meanwhile
+  std::vector<bool> open = {};           ///< by task: it has no result and has not failed
+  std::uint64_t left = 0;                ///< number of open tasks
   std::map<std::uint64_t, Running> running = {};
   std::map<std::uint64_t, int> failures_before = {};  ///< failures in the result files at the start
   std::map<std::uint64_t, int> deaths = {};           ///< workers that died while they computed the task
@@ -55,7 +58,11 @@ struct EngineRun::State {
   std::size_t known = 0;  ///< results in the store at the last end
   double read_at = 0, troubled_at = 0, refused_until = 0;
 
-  bool done(std::uint64_t task) const { return store.find({key, task}).has_value(); }
+  void close(std::uint64_t task) {
+    if (!open[task]) return;
+    open[task] = false;
+    --left;
+  }
 };
 
 EngineRun::EngineRun(std::unique_ptr<Engine> engine, const std::string& name, fs::path dir, Reports reports)
@@ -78,10 +85,12 @@ bool EngineRun::operator()(const Round& round, ResultStore& store) {
   State s{round, store, planner_.plan(round, store, !missing.empty()), store.key(round)};
   if (missing.empty()) return true;
   s.queue.assign(missing.begin(), missing.end());
-  s.open.insert(missing.begin(), missing.end());
+  s.open.resize(round.size);
+  for (const std::uint64_t task : missing) s.open[task] = true;
+  s.left = missing.size();
   for (const auto& [task, f] : store.failures(s.key)) s.failures_before[task] = f.attempts;
   s.known = store.size();
-  while (!s.open.empty()) {
+  while (s.left > 0) {
     if (reports_.stop()) {
       engine_->cancel();
       log_.add(run_name_, "command stopped", "", "");
@@ -91,24 +100,32 @@ bool EngineRun::operator()(const Round& round, ResultStore& store) {
     wait(s);
     take_ended(s);
     read_results(s);
-    reports_.progress(round.size - s.open.size() - s.failed.size(), round.size);
+    reports_.progress(round.size - s.left - s.failed.size(), round.size);
   }
   engine_->cancel();  // attempts whose tasks were completed by others
-  if (!s.failed.empty()) throw failed_tasks(s.planned, round, s.failed);
+  if (!s.failed.empty()) throw failed_tasks(round, s.failed, s.planned.first, kMostAttempts);
   return true;
 }
 
 // Gives work to free workers.
 void EngineRun::fill(State& s) {
-  std::erase_if(s.queue, [&](std::uint64_t task) { return !s.open.contains(task); });
+  while (!s.queue.empty() && !s.open[s.queue.front()]) s.queue.pop_front();
   if (s.queue.empty() || monotonic_now() < s.refused_until) return;
-  if (engine_->queues() || s.running.size() < engine_->slots()) submit(s);
+  const bool measured = s.store.seconds_per_task(s.key).has_value();
+  if (const std::size_t most = engine_->accepts(s.running.size(), measured); most > 0) submit(s, most);
 }
 
-void EngineRun::submit(State& s) {
+// At most `most` attempts, of equal size.
+void EngineRun::submit(State& s, std::size_t most) {
   std::vector<Running> next;
-  while (!s.queue.empty() && (engine_->queues() || s.running.size() + next.size() < engine_->slots()))
-    next.push_back(next_attempt(s));
+  const std::uint64_t open = s.queue.size(), workers = std::min<std::size_t>(most, engine_->slots());
+  const ChunkSize size{open, engine_->slots(), s.store.seconds_per_task(s.key), engine_->queues()};
+  const std::uint64_t each = std::min(size.tasks(), (open + workers - 1) / workers);  // work for all of them
+  while (!s.queue.empty() && next.size() < most) {
+    Running r = next_attempt(s, each);
+    if (!r.tasks.empty()) next.push_back(std::move(r));
+  }
+  if (next.empty()) return;
   std::vector<Attempt> attempts;
   for (const Running& r : next) attempts.push_back(r.attempt);
   if (!engine_->submit(attempts)) {
@@ -123,14 +140,17 @@ void EngineRun::submit(State& s) {
   }
 }
 
-EngineRun::Running EngineRun::next_attempt(State& s) {
-  const ChunkSize size{s.queue.size(), engine_->slots(), s.store.seconds_per_task(s.key), engine_->queues()};
-  const auto count = std::ptrdiff_t(std::min<std::uint64_t>(size.tasks(), s.queue.size()));
+// Takes at most `most` tasks from the queue.
+EngineRun::Running EngineRun::next_attempt(State& s, std::uint64_t most) {
   Running r;
-  r.tasks.assign(s.queue.begin(), s.queue.begin() + count);
-  s.queue.erase(s.queue.begin(), s.queue.begin() + count);
   std::vector<std::uint64_t> numbers;
-  for (const std::uint64_t task : r.tasks) numbers.push_back(s.planned.first + task);
+  for (std::size_t ranges = 0; !s.queue.empty() && r.tasks.size() < most; s.queue.pop_front()) {
+    const std::uint64_t task = s.queue.front();
+    if (!s.open[task]) continue;
+    if ((r.tasks.empty() || task != r.tasks.back() + 1) && ++ranges > kMostRanges) break;
+    r.tasks.push_back(task);
+    numbers.push_back(s.planned.first + task);
+  }
   const std::string name = fmt::format("{}-{}", run_name_, ++attempts_);
   r.attempt = {attempts_, number_list(numbers), dir_ / study_files::kResults / (name + ".results"),
                dir_ / study_files::kJobs / (name + ".log")};
@@ -140,8 +160,9 @@ EngineRun::Running EngineRun::next_attempt(State& s) {
 void EngineRun::read_results(State& s) {
   if (monotonic_now() - s.read_at < kReadPeriod) return;
   s.read_at = monotonic_now();
-  if (!s.store.read_new()) return;
-  std::erase_if(s.open, [&](std::uint64_t task) { return s.done(task); });
+  s.store.read_new([&](TaskId id) {
+    if (id.round == s.key && id.task < s.open.size()) s.close(id.task);
+  });
 }
 
 void EngineRun::take_ended(State& s) {
@@ -167,7 +188,7 @@ void EngineRun::take_left(State& s, const Running& ended, const AttemptEnd& how)
   bool failed = false;           // a task, with a recorded reason
   bool charged = how.exit == 0;  // the first task without a record is the one that the worker computed
   for (const std::uint64_t task : ended.tasks) {
-    if (!s.open.contains(task)) continue;
+    if (!s.open[task]) continue;
     const auto recorded = failures.find(task);
     const int failures_now =
         recorded == failures.end() ? 0 : recorded->second.attempts - s.failures_before[task];
@@ -180,7 +201,7 @@ void EngineRun::take_left(State& s, const Running& ended, const AttemptEnd& how)
       s.failed[task] = failures_now > 0 ? recorded->second.what
                                         : fmt::format("the worker ended with {}{}{}", how.how,
                                                       message.empty() ? "" : ": ", message);
-      s.open.erase(task);
+      s.close(task);
       log_.add(name, "task failed", std::to_string(s.planned.first + task), s.failed[task]);
       continue;
     }

@@ -4,7 +4,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -44,8 +43,8 @@ class EngineRun {
   };
   struct State;
   void fill(State& s);
-  void submit(State& s);
-  Running next_attempt(State& s);
+  void submit(State& s, std::size_t most);
+  Running next_attempt(State& s, std::uint64_t most);
   void read_results(State& s);
   void take_ended(State& s);
   void take_left(State& s, const Running& ended, const AttemptEnd& how);

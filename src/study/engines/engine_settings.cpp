@@ -17,7 +17,7 @@ constexpr std::array kEngines = {"local", "parallel", "slurm", "dask"};
 
 Schema<EngineSettings> EngineSettings::schema() {
   using E = EngineSettings;
-  return Schema<E>("engine", "Where the simulations of a study run")
+  return Schema<E>("engine", "Where the tasks of a study run")
       .add(
           "type", &E::type,
           {.doc = "local: processes on this machine; parallel: GNU parallel; slurm: array jobs; dask: a Dask "
@@ -43,6 +43,13 @@ Schema<EngineSettings> EngineSettings::schema() {
       .add("environment", &E::environment,
            {.doc = "Lines of shell before each worker, such as \"module load gcc\" (slurm, parallel)"})
       .add("python", &E::python, {.doc = "dask: Python interpreter that has the package distributed"});
+}
+
+Json engine_file_schema() {
+  return {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+          {"type", "object"},
+          {"properties", {{"engine", EngineSettings::schema().json_schema()}}},
+          {"required", {"engine"}}};
 }
 
 std::string engine_name(EngineType type) { return kEngines[std::size_t(type)]; }

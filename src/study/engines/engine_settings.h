@@ -26,6 +26,9 @@ struct EngineSettings {
 /// The name of an engine.
 std::string engine_name(EngineType type);
 
+/// JSON Schema of a file with the table [engine].
+Json engine_file_schema();
+
 /// Settings from `engine`, the name of an engine or a TOML file with a table [engine], and from options
 /// KEY=VALUE. Throws Error(usage).
 EngineSettings engine_settings(const std::string& engine, const std::vector<std::string>& options);

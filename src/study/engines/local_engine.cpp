@@ -19,7 +19,6 @@ class LocalEngine final : public Engine {
   ~LocalEngine() override { LocalEngine::cancel(); }
 
   unsigned slots() const override { return slots_; }
-  bool queues() const override { return false; }
   double period_s() const override { return 0.02; }
 
   bool submit(std::span<const Attempt> attempts) override {

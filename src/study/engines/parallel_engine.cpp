@@ -3,6 +3,7 @@
 #include <signal.h>
 
 #include <fstream>
+#include <limits>
 #include <map>
 
 #include "core/child.h"
@@ -17,11 +18,13 @@ namespace faba {
 namespace {
 
 namespace fs = std::filesystem;
+constexpr int kSshFailed = 255;  // exit code of ssh when the host is not reached
 
 /// One call of GNU parallel with the attempts of one submission.
 struct ParallelCall {
   pid_t process = -1;
   fs::path joblog;                 ///< one line for each attempt that ended
+  fs::path log;                    ///< messages of GNU parallel and ssh
   std::vector<std::uint64_t> ids;  ///< of the attempts, in their order
   std::vector<bool> ended;
 };
@@ -44,6 +47,11 @@ class ParallelEngine final : public Engine {
 
   unsigned slots() const override { return slots_; }
   bool queues() const override { return true; }
+  // One call at a time: two would start twice as many workers.
+  std::size_t accepts(std::size_t running, bool measured) const override {
+    if (running > 0) return 0;
+    return measured ? std::numeric_limits<std::size_t>::max() : slots_;
+  }
   double period_s() const override { return 0.1; }
 
   bool submit(std::span<const Attempt> attempts) override {
@@ -51,6 +59,7 @@ class ParallelEngine final : public Engine {
     const std::string name = attempts.front().results.stem().string() + "-parallel";
     const fs::path jobs = worker_.directory / study_files::kJobs, list = jobs / (name + ".list");
     call.joblog = jobs / (name + ".joblog");
+    call.log = jobs / (name + ".log");
     std::string lines;
     for (const Attempt& a : attempts) {
       lines += fmt::format("{}\t{}\t{}\n", a.tasks, a.results.string(), a.log.string());
@@ -58,7 +67,7 @@ class ParallelEngine final : public Engine {
     }
     call.ended.resize(attempts.size());
     write_file(list, lines);
-    call.process = start_process(words(list, call.joblog), {.log = jobs / (name + ".log")});
+    call.process = start_process(words(list, call.joblog), {.log = call.log});
     calls_.push_back(std::move(call));
     return true;
   }
@@ -138,7 +147,9 @@ class ParallelEngine final : public Engine {
         continue;
       if (number < 1 || number > call.ids.size() || call.ended[number - 1]) continue;
       call.ended[number - 1] = true;
-      ends.push_back({call.ids[number - 1], end_text(signal != 0 ? -signal : exit), signal != 0 ? -1 : exit});
+      std::string how = end_text(signal != 0 ? -signal : exit);
+      if (exit == kSshFailed) how += ", " + last_message(call.log);
+      ends.push_back({call.ids[number - 1], how, signal != 0 ? -1 : exit});
     }
   }
 

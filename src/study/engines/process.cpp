@@ -9,6 +9,7 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <fstream>
 #include <system_error>
 
 #include "core/child.h"
@@ -70,6 +71,14 @@ CommandOutput run_command(const std::vector<std::string>& words, bool with_error
   const int status = pclose(pipe);
   c.exit = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   return c;
+}
+
+std::string last_message(const std::filesystem::path& log) {
+  std::ifstream in(log);
+  std::string last;
+  for (std::string line; std::getline(in, line);)
+    if (!line.empty() && line.find("Warning") == std::string::npos) last = line;
+  return last;
 }
 
 bool program_exists(const std::string& name) {

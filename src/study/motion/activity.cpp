@@ -17,9 +17,8 @@
 namespace faba {
 namespace {
 
-constexpr std::size_t kBlocks = 6;  // blocks of a video whose flows are assumed independent
-constexpr double kResponds = 4;     // standard errors
-constexpr double kSameRate = 0.01;
+constexpr std::size_t kBlocks = 6;     // blocks of a video whose flows are assumed independent
+constexpr double kResponds = 4;        // standard errors
 constexpr double kEdgeFraction = 0.1;  // fraction of the fitted peak at the start and end of a response
 
 void check_stop(const ActivityJob& job, const ActivityInput& v) {
@@ -97,8 +96,8 @@ struct Prepared {
   std::shared_ptr<KeptFlows> flows;
 };
 
-NoiseLevel threshold_of(const ActivityJob& job, const ActivityInput& video, std::size_t index,
-                        const FrameInspector& inspect, const std::shared_ptr<KeptFlows>& flows) {
+NoiseLevel noise_of(const ActivityJob& job, const ActivityInput& video, std::size_t index,
+                    const FrameInspector& inspect, const std::shared_ptr<KeptFlows>& flows) {
   FlowSourceOptions options = source_options(job, video);
   options.inspect = inspect;
   options.kept = flows;
@@ -129,8 +128,8 @@ Prepared prepare(const ActivityJob& job, std::size_t index, bool measure_noise) 
     survey = p.cells->survey();
   }
   if (measure_noise) {
-    if (job.videos.size() == 1) p.flows = std::make_shared<KeptFlows>();
-    const NoiseLevel level = threshold_of(job, video, index, survey, p.flows);
+    p.flows = std::make_shared<KeptFlows>();
+    const NoiseLevel level = noise_of(job, video, index, survey, p.flows);
     p.threshold_px = level.threshold_px;
     p.quiet = level.quiet;
   }
@@ -306,94 +305,58 @@ VideoActivity measure(const ActivityJob& job, std::size_t index, Prepared& prepa
   return a;
 }
 
-void fit_exposure_lines(ActivityResult& r) {
-  std::vector<ExposureValue> peaks, means, per_cell;
-  std::vector<ExposureResponse> responses;
-  for (const VideoActivity& a : r.videos) {
-    if (!a.input.exposure_s) continue;
-    responses.push_back({*a.input.exposure_s, a.responds});
-    means.push_back({*a.input.exposure_s, a.mean_amount, a.input.experiment});
-    if (const auto value = activity_per_cell(a))
-      per_cell.push_back({*a.input.exposure_s, *value, a.input.experiment});
-  }
-  r.cutoff = response_cutoff(responses);
-  // A peak of a sample that no longer responds is due to noise.
-  for (const VideoActivity& a : r.videos)
-    if (a.input.exposure_s && has_peak(a) && (!r.cutoff || *a.input.exposure_s < r.cutoff->cutoff_s))
-      peaks.push_back({*a.input.exposure_s, a.fit.peak_s - a.input.from_s, a.input.experiment});
-  r.peak_line = mixed_line(peaks);
-  r.peak_line_pooled = pooled_line(peaks);
-  r.mean_line = mixed_line(means);
-  r.mean_line_pooled = pooled_line(means);
-  r.per_cell_line = mixed_line(per_cell);
-  r.per_cell_line_pooled = pooled_line(per_cell);
-  const double frame_s = r.videos.front().frame_s;
-  if (std::all_of(r.videos.begin(), r.videos.end(),
-                  [&](const VideoActivity& a) { return std::fabs(a.frame_s / frame_s - 1) < kSameRate; }))
-    r.frame_s = frame_s;
-}
-
 }  // namespace
 
-std::optional<double> activity_per_cell(const VideoActivity& a) {
-  if (!a.visible_cells || !(*a.visible_cells > 0)) return {};
-  return a.mean_amount / *a.visible_cells;
+std::vector<ActivityInput> threshold_inputs(const ActivityJob& job) {
+  if (job.threshold_px) return {};
+  if (!job.noise.empty()) return {{.file = job.noise}};
+  return job.videos.size() > 1 ? job.videos : std::vector<ActivityInput>();
 }
 
-std::vector<Warning> all_warnings(const ActivityResult& r) {
-  std::vector<Warning> all;
-  for (const VideoActivity& a : r.videos)
-    for (Warning w : a.warnings) {
-      if (r.videos.size() > 1) w.evidence = fmt::format("{}: {}", a.input.file.string(), w.evidence);
-      all.push_back(std::move(w));
-    }
-  return all;
+double threshold_of(const ActivityJob& job, const ActivityInput& video) {
+  std::size_t index = 0;  // for the progress
+  while (index + 1 < job.videos.size() && job.videos[index].file != video.file) ++index;
+  return noise_of(job, video, index, {}, nullptr).threshold_px;
 }
 
-std::optional<ChangePoint> onset_of(const VideoActivity& a) {
-  if (!a.response || !a.response->responds) return {};
-  return a.response->change;
+// One threshold for all videos, so that their activities are comparable.
+std::optional<double> common_threshold(const ActivityJob& job, const std::vector<double>& thresholds) {
+  if (job.threshold_px) return job.threshold_px;
+  if (thresholds.empty()) return {};
+  double least = 1e300;
+  for (const double t : thresholds)
+    if (t > 0) least = std::min(least, t);  // black videos have no noise and are ignored
+  return least < 1e300 ? least : thresholds.front();
 }
 
-bool has_peak(const VideoActivity& a) { return a.fit.good && a.fit.amplitude > a.fit.offset; }
+VideoActivity measure_video(const ActivityJob& job, std::size_t index, std::optional<double> threshold_px) {
+  Prepared prepared = prepare(job, index, !threshold_px);
+  if (threshold_px) prepared.threshold_px = *threshold_px;
+  check_stop(job, job.videos[index]);
+  VideoActivity a = measure(job, index, prepared);
+  if (!prepared.quiet && !a.signature.still())
+    a.warnings.push_back(
+        {"threshold",
+         fmt::format("no part of the video is without motion: the threshold of {:.3g} px per pair contains "
+                     "motion of cells, and slower motion is not counted",
+                     prepared.threshold_px),
+         "the mean flow speed in the quietest 10 % of the sampled pairs of frames is at least half of that "
+         "in the busiest ones, the 95 % quantile",
+         "measure the threshold in a video of a dead sample with --noise, or set it with "
+         "--flow-threshold"});
+  return a;
+}
 
 ActivityResult measure_activity(const ActivityJob& job) {
-  ActivityResult r;
-  const bool measure_noise = !job.threshold_px && job.noise.empty();
-  std::vector<Prepared> prepared;
-  for (std::size_t i = 0; i < job.videos.size(); ++i) {
-    prepared.push_back(prepare(job, i, measure_noise));
-    check_stop(job, job.videos[i]);
+  std::vector<double> thresholds;
+  for (const ActivityInput& video : threshold_inputs(job)) {
+    thresholds.push_back(threshold_of(job, video));
+    check_stop(job, video);
   }
-  if (job.threshold_px || !job.noise.empty()) {
-    const double level = job.threshold_px
-                             ? *job.threshold_px
-                             : threshold_of(job, {.file = job.noise}, 0, {}, nullptr).threshold_px;
-    for (Prepared& p : prepared) p.threshold_px = level;
-  } else {
-    // One threshold for all videos, so that their activities are comparable.
-    double least = 1e300;  // black videos have no noise and are ignored
-    for (const Prepared& p : prepared)
-      if (p.threshold_px > 0) least = std::min(least, p.threshold_px);
-    if (least < 1e300)
-      for (Prepared& p : prepared) p.threshold_px = least;
-  }
-  for (std::size_t i = 0; i < job.videos.size(); ++i) {
-    r.videos.push_back(measure(job, i, prepared[i]));
-    prepared[i].cells.reset();
-    if (!prepared[i].quiet && job.videos.size() == 1 && !r.videos.back().signature.still())
-      r.videos.back().warnings.push_back(
-          {"threshold",
-           fmt::format("no part of the video is without motion: the threshold of {:.3g} px per pair contains "
-                       "motion of cells, and slower motion is not counted",
-                       prepared[i].threshold_px),
-           "the mean flow speed in the quietest 10 % of the sampled pairs of frames is at least half of that "
-           "in the busiest ones, the 95 % quantile",
-           "measure the threshold in a video of a dead sample with --noise, or set it with "
-           "--flow-threshold"});
-  }
-  fit_exposure_lines(r);
-  return r;
+  const std::optional<double> threshold = common_threshold(job, thresholds);
+  std::vector<VideoActivity> videos;
+  for (std::size_t i = 0; i < job.videos.size(); ++i) videos.push_back(measure_video(job, i, threshold));
+  return activity_result(std::move(videos));
 }
 
 }  // namespace faba

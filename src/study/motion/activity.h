@@ -104,4 +104,17 @@ std::vector<Warning> all_warnings(const ActivityResult& result);
 /// smallest threshold of all videos is used. Throws the errors of FlowSource, and Error(interrupted).
 ActivityResult measure_activity(const ActivityJob& job);
 
+// The stages of measure_activity(), for several processes.
+/// The videos from which the common threshold is determined: `noise`, or all of several videos. Empty when
+/// it is given, and for a single video, which is measured with its own threshold.
+std::vector<ActivityInput> threshold_inputs(const ActivityJob& job);
+/// The threshold of one of them, px per pair.
+double threshold_of(const ActivityJob& job, const ActivityInput& video);
+/// The common threshold from all of them.
+std::optional<double> common_threshold(const ActivityJob& job, const std::vector<double>& thresholds);
+/// Measures one video with the common threshold.
+VideoActivity measure_video(const ActivityJob& job, std::size_t index, std::optional<double> threshold_px);
+/// Fits the exposure lines.
+ActivityResult activity_result(std::vector<VideoActivity> videos);
+
 }  // namespace faba

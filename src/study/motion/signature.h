@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/archive.h"
 #include "core/vec.h"
 #include "study/data/flow_source.h"
 
@@ -16,6 +17,10 @@ struct DirectionSums {
   static constexpr int kSectors = 24;    ///< of 15 degrees; a cone of +-45 degrees has six
   std::array<float, kSectors> amount{};  ///< of |u| + |v|
   std::array<float, kSectors> u{}, v{};
+  void archive(Archive& a) {
+    for (std::array<float, kSectors>* sums : {&amount, &u, &v})
+      for (float& sum : *sums) a& sum;
+  }
 };
 
 /// The activity of a video, pair by pair (theory A16).
@@ -45,6 +50,7 @@ class Signature {
   /// Sum of all flows, and of their speeds.
   Vec2 sum(std::size_t k) const;
   double speed(std::size_t k) const;
+  void archive(Archive& a) { a& threshold_px_& zero_deg_& t0_s_& t1_s_& sums_; }
 
  private:
   /// Calls take(sector) for the six sectors about `deg`.

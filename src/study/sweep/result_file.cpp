@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "study/sweep/program_version.h"
 
 namespace faba {
 namespace {
@@ -44,7 +45,7 @@ std::uint32_t checksum_of(const void* p, std::size_t n) {
 FileHead head_of(const std::string& study_hash) {
   FileHead h;
   study_hash.copy(h.study, sizeof h.study - 1);
-  const std::string version = FABA_VERSION;
+  const std::string version = program_version();
   version.copy(h.version, sizeof h.version - 1);
   h.checksum = checksum_of(&h, sizeof h - sizeof h.checksum);
   return h;
@@ -58,11 +59,11 @@ void check_head(const FileHead& h, const std::filesystem::path& file, const std:
     throw Error(Errc::input, file.string(),
                 "is not a file of results of this version of faba; if it is in the directory of a study, "
                 "delete it to compute its results again");
-  if (text_of(h.version, sizeof h.version) != FABA_VERSION)
+  if (text_of(h.version, sizeof h.version) != program_version())
     throw Error(Errc::usage, file.string(),
-                fmt::format("was computed by faba {}, this is faba {}; use one version for all parts of a "
+                fmt::format("was computed by faba {}, this is faba {}; use one program for all parts of a "
                             "study, or delete the file to compute its results again",
-                            text_of(h.version, sizeof h.version), FABA_VERSION));
+                            text_of(h.version, sizeof h.version), program_version()));
   if (text_of(h.study, sizeof h.study) != study_hash)
     throw Error(Errc::usage, file.string(),
                 fmt::format("contains results of a different study ({}, this study is {})",

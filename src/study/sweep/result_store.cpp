@@ -122,14 +122,17 @@ void ResultStore::add(TaskId id, std::span<const double> values, double seconds)
   take(r);
 }
 
-bool ResultStore::read_new() {
+bool ResultStore::read_new(const std::function<void(TaskId)>& taken) {
   bool news = false;
   for (const auto& [name, now] : result_files(folder_)) {
     Reading& file = files_[name];
     if (file.complete) continue;
     const auto read = [&](const fs::path& path) {
-      file.from =
-          read_results(path, study_hash_, file.from, [&](const TaskResult& r) { news = take(r) || news; });
+      file.from = read_results(path, study_hash_, file.from, [&](const TaskResult& r) {
+        if (!take(r)) return;
+        news = true;
+        if (taken && r.failure.empty()) taken(r.id);
+      });
       file.complete = path.extension() != ".part";
     };
     // A worker may rename its file between the listing and the reading.

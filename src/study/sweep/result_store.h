@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -34,8 +35,9 @@ class ResultStore {
   /// Stores a result; an existing result is not changed. `seconds`: computing time. Several threads may call
   /// it.
   void add(TaskId id, std::span<const double> values, double seconds = 0);
-  /// Reads what other processes have written since the last call. Returns whether there are new results.
-  bool read_new();
+  /// Reads what other processes have written since the last call. Returns whether there are new results or
+  /// failures; calls `taken` for each new result.
+  bool read_new(const std::function<void(TaskId)>& taken = {});
   /// Copies the result files of another folder that this one does not have, and reads them.
   void merge(const std::filesystem::path& folder);
   /// Copies a result file to the folder and reads it.

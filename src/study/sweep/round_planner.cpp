@@ -10,15 +10,7 @@
 namespace faba {
 namespace {
 
-constexpr std::size_t kNamedFailures = 3;            // failed tasks in a message
 constexpr std::uint64_t kMostNumbers = 100'000'000;  // in a list
-
-std::string labels_text(const Round& round, std::uint64_t task) {
-  std::string text;
-  for (const TaskLabel& l : round.labels(task))
-    if (!l.text.empty()) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", l.name, l.text);
-  return text;
-}
 
 bool read_number_text(std::string_view text, std::uint64_t& out) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
@@ -38,31 +30,15 @@ bool RoundPlanner::operator()(const Round& round, ResultStore& store) {
   const std::vector<std::uint64_t> missing = missing_tasks(store, round);
   PlannedRound planned = plan(round, store, !missing.empty());
   if (missing.empty()) return true;
-  std::map<std::uint64_t, std::string> failed;
+  FailedTasks failed;
   for (const auto& [task, f] : store.failures(store.key(round)))
     if (f.attempts >= kMostAttempts) failed[task] = f.what;
-  if (failed.size() == missing.size()) throw failed_tasks(planned, round, failed);
+  if (failed.size() == missing.size()) throw failed_tasks(round, failed, planned.first, kMostAttempts);
   open_tasks_.clear();
   for (const std::uint64_t task : missing)
     if (!failed.contains(task)) open_tasks_.push_back(planned.first + task);
   open_round_ = std::move(planned);
   return false;
-}
-
-Error failed_tasks(const PlannedRound& planned, const Round& round,
-                   const std::map<std::uint64_t, std::string>& failed) {
-  std::string text;
-  std::size_t named = 0;
-  for (const auto& [task, what] : failed) {
-    if (++named > kNamedFailures) break;
-    text += fmt::format("{}task {} ({}): {}", named > 1 ? "; " : "", planned.first + task,
-                        labels_text(round, task), what);
-  }
-  return {Errc::internal, "",
-          fmt::format(
-              "{} of {} tasks of this round failed {} times: {}{}; the results of all other tasks are "
-              "kept; run the same command again to try the failed tasks again",
-              failed.size(), round.size, kMostAttempts, text, failed.size() > kNamedFailures ? "; ..." : "")};
 }
 
 std::string number_list(const std::vector<std::uint64_t>& numbers) {

@@ -1,7 +1,6 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -36,11 +35,6 @@ class RoundPlanner {
   PlannedRound open_round_;
   std::vector<std::uint64_t> open_tasks_;
 };
-
-/// Error of a study whose tasks `failed` (number in the round, reason) have no result, although all others
-/// have.
-Error failed_tasks(const PlannedRound& planned, const Round& round,
-                   const std::map<std::uint64_t, std::string>& failed);
 
 /// Text of a list of ascending numbers, such as "1-20,45", and its inverse, which throws Error(usage) for any
 /// other text and for more than 1e8 numbers.

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "study/sweep/program_version.h"
 
 namespace faba {
 namespace {
@@ -15,10 +16,15 @@ using OrderedJson = nlohmann::ordered_json;
 using namespace study_files;
 
 // Everything that a study writes into its directory, apart from study.json and the marker.
-constexpr const char* kWritten[] = {"identify.json",    "identify.html",   "best.toml",   "background.png",
-                                    "controllers.json", "controllers.csv", "report.html", kResults,
-                                    "results.jsonl",    kRounds,           kMeasured,     kJobs,
-                                    kAttempts};
+constexpr const char* kWritten[] = {"identify.json",    "identify.html",
+                                    "best.toml",        "background.png",
+                                    "controllers.json", "controllers.csv",
+                                    "report.html",      kResults,
+                                    "results.jsonl",    "activity.json",
+                                    "activity.csv",     "activity.html",
+                                    "tracks.json",      kRounds,
+                                    kMeasured,          kJobs,
+                                    kAttempts,          kVideos};
 
 // study.json; null when it does not exist or is not a study.
 OrderedJson study_in(const fs::path& dir) {
@@ -35,31 +41,42 @@ std::optional<std::string> hash_of_study_in(const fs::path& dir) {
   return {};
 }
 
+// Empty for a study of an earlier version, which stored it elsewhere.
+std::string version_in(const fs::path& dir) {
+  const OrderedJson j = study_in(dir);
+  return j.is_object() ? j.value("version", "") : "";
+}
+
 // The path of the study file is stored as given, relative to the directory and absolute, because workers can
-// have another working directory and another mount point.
+// have another working directory and another mount point. Without a study file the same holds for the working
+// directory.
 OrderedJson study_json(const fs::path& dir, const std::string& study_hash, const StudySource& s) {
-  OrderedJson j{{"study_hash", study_hash}, {"version", FABA_VERSION}};
+  OrderedJson j{{"study_hash", study_hash}, {"version", program_version()}};
   if (s.empty()) return j;
-  const fs::path file = fs::absolute(s.file).lexically_normal();
+  const bool with_file = !s.file.empty();
+  const fs::path path = fs::absolute(with_file ? s.file : fs::path(".")).lexically_normal();
+  const std::string name = with_file ? "file" : "folder";
   j["command"] = s.verb;
-  j["file"] = s.file.string();
-  j["file_from_here"] = file.lexically_relative(fs::absolute(dir).lexically_normal()).string();
-  j["file_absolute"] = file.string();
+  if (with_file) j[name] = s.file.string();
+  j[name + "_from_here"] = path.lexically_relative(fs::absolute(dir).lexically_normal()).string();
+  j[name + "_absolute"] = path.string();
   j["inputs"] = s.inputs;
   j["options"] = s.options;
   return j;
 }
 
-fs::path study_file(const fs::path& dir, const OrderedJson& j) {
-  const fs::path given = j.value("file", ""), here = dir / j.value("file_from_here", ""),
-                 absolute = j.value("file_absolute", "");
+// The study file, or the working directory, where it is here.
+fs::path found_here(const fs::path& dir, const OrderedJson& j, const std::string& name) {
+  const fs::path given = j.value(name, ""), here = dir / j.value(name + "_from_here", ""),
+                 absolute = j.value(name + "_absolute", "");
   std::error_code ec;
-  for (const fs::path& file : {given, here, absolute})
-    if (fs::is_regular_file(file, ec)) return file;
-  throw Error(Errc::input, dir.string(),
-              fmt::format("the study file {} is not found, neither at {} nor at {}; it must be in the folder "
-                          "that all machines share",
-                          given.string(), here.string(), absolute.string()));
+  for (const fs::path& path : {given, here, absolute})
+    if (name == "file" ? fs::is_regular_file(path, ec) : fs::is_directory(path, ec)) return path;
+  throw Error(
+      Errc::input, dir.string(),
+      fmt::format("the {} of the study is not found, neither at {} nor at {}; it must be in the folder "
+                  "that all machines share",
+                  name, here.string(), absolute.string()));
 }
 
 }  // namespace
@@ -71,14 +88,17 @@ StoredStudy stored_study(const fs::path& dir) {
                 "contains no study; give the directory that `faba study plan` or the command of the study "
                 "has written");
   StoredStudy s{j.value("study_hash", ""), j.value("version", ""), {}};
-  if (s.version != FABA_VERSION)
+  if (s.version != program_version())
     throw Error(
         Errc::usage, dir.string(),
-        fmt::format("the study was planned by faba {}, this is faba {}; use one version for all parts "
+        fmt::format("the study was planned by faba {}, this is faba {}; use one program for all parts "
                     "of a study",
-                    s.version, FABA_VERSION));
-  s.source = {j["command"].get<std::string>(), study_file(dir, j),
-              j.value("inputs", std::vector<std::string>()), j.value("options", std::vector<std::string>())};
+                    s.version, program_version()));
+  const bool with_file = j.contains("file");
+  const fs::path found = found_here(dir, j, with_file ? "file" : "folder");
+  s.source = {j["command"].get<std::string>(), with_file ? found : "",
+              j.value("inputs", std::vector<std::string>()), j.value("options", std::vector<std::string>()),
+              with_file ? "" : found};
   return s;
 }
 
@@ -88,7 +108,8 @@ bool holds_complete_study(const fs::path& dir, const std::string& study_hash) {
 
 StudyDirectory::~StudyDirectory() {
   if (!new_ || complete_ || !results_ || !results_->empty()) return;
-  if (fs::exists(dir_ / kRounds) || fs::exists(dir_ / kResults)) return;
+  for (const char* name : {kRounds, kResults, kJobs})
+    if (fs::exists(dir_ / name)) return;
   results_.reset();
   lock_.complete();
   std::error_code ignored;
@@ -102,22 +123,30 @@ StudyDirectory::StudyDirectory(const fs::path& dir, const std::string& study_has
     : dir_(dir), study_hash_(study_hash), source_(std::move(source)) {
   std::error_code ec;
   if (fs::exists(fs::symlink_status(dir)) && !fs::is_directory(dir))
-    throw Error(Errc::usage, dir.string(), "exists and is not a directory; choose another --out");
+    throw Error(Errc::usage, dir.string(), "exists and is not a directory; choose another directory");
   new_ = !fs::is_directory(dir);
   if (new_) fs::create_directories(dir, ec);
   if (!fs::is_directory(dir))
     throw Error(Errc::internal, dir.string(),
-                fmt::format("the directory cannot be created: {}; choose another --out", ec.message()));
+                fmt::format("the directory cannot be created: {}; choose another directory", ec.message()));
   const auto existing = hash_of_study_in(dir);
   if (!existing && !fs::is_empty(dir, ec))
-    throw Error(Errc::usage, dir.string(), "contains other files and no study; choose another --out");
-  const bool same = existing == study_hash;
+    throw Error(Errc::usage, dir.string(), "contains other files and no study; choose another directory");
+  const bool same = existing == study_hash && version_in(dir) == program_version();
+  if (existing == study_hash && !same && !force)
+    throw Error(
+        Errc::usage, dir.string(),
+        fmt::format(
+            "contains results of this study by faba {}, this is faba {}; continue it with that program, "
+            "choose another directory, or --force to compute it again",
+            version_in(dir), program_version()));
   if (existing && !same && !force)
     throw Error(Errc::usage, dir.string(),
-                "contains a different study; choose another --out, or --force to replace it");
+                "contains a different study; choose another directory, or --force to replace it");
   if (same && !fs::exists(dir / kMarker) && !force)
-    throw Error(Errc::usage, dir.string(),
-                "the study is already complete; choose another --out, or --force to write its pages again");
+    throw Error(
+        Errc::usage, dir.string(),
+        "the study is already complete; choose another directory, or --force to write its pages again");
   lock_ =
       FileLock(dir / kMarker, dir,
                fmt::format("This study is not complete. Resume it with: {}\n", resume_command), Errc::busy);

@@ -16,22 +16,24 @@ namespace faba {
 namespace study_files {
 inline constexpr const char *kMarker = "incomplete", *kStudy = "study.json", *kResults = "results",
                             *kRounds = "rounds", *kMeasured = "measured", *kJobs = "jobs",
-                            *kAttempts = "attempts.csv";
+                            *kAttempts = "attempts.csv", *kVideos = "videos";
 }  // namespace study_files
 
 /// How to read the study of a directory again; stored in its study.json.
 struct StudySource {
   std::string verb;                  ///< "identify"
-  std::filesystem::path file;        ///< the study file, as given
-  std::vector<std::string> inputs;   ///< digests of the videos, which workers do not read
+  std::filesystem::path file;        ///< the study file, as given; empty: `options` name all inputs
+  std::vector<std::string> inputs;   ///< digests of the videos
   std::vector<std::string> options;  ///< options of the verb that change the study: "--from", "2"
+  /// Working directory of the command, in which paths in `options` are valid; only without a study file.
+  std::filesystem::path folder = {};
   bool empty() const { return verb.empty(); }
 };
 
 /// What study.json contains.
 struct StoredStudy {
   std::string hash, version;
-  StudySource source;  ///< `file`: a path that exists here, also when the folder is mounted in another place
+  StudySource source;  ///< `file` and `folder` exist here, also when they are mounted in another place
 };
 /// Reads study.json of a directory. Throws Error(input) when the directory contains no study or the study
 /// file is not found, Error(usage) when another version of the program wrote it.
@@ -53,7 +55,7 @@ class StudyDirectory {
   /// it. With `force` the results of a different study are deleted; those of the same study are used.
   StudyDirectory(const std::filesystem::path& dir, const std::string& study_hash,
                  const std::string& resume_command, bool force, StudySource source = {});
-  /// Deletes a directory that was created for a study that has neither results nor a round.
+  /// Deletes a directory that was created for a study that has neither results nor a round nor jobs.
   ~StudyDirectory();
   StudyDirectory(StudyDirectory&&) = default;
 

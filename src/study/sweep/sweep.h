@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,9 +35,18 @@ struct SweepOptions {
 
 /// Computes the tasks of a round that have no result in `store`. Each result is stored immediately, so that a
 /// killed sweep can be resumed. Returns whether the results of all tasks are available, including those of
-/// other shards. An exception of a task ends the sweep and is rethrown. Throws Error(interrupted) when
-/// stopped.
+/// other shards. A task that fails does not end the sweep, unless the first kHopelessTasks all fail; at the
+/// end throws the error of the failed tasks. Throws Error(interrupted) when stopped.
 bool sweep(ResultStore& store, const Round& round, const SweepOptions& options);
+
+inline constexpr std::uint64_t kHopelessTasks = 10;
+
+/// Tasks that failed: number in the round, reason.
+using FailedTasks = std::map<std::uint64_t, std::string>;
+/// Error of a round whose tasks `failed` have no result, although all others have. `first`: number of its
+/// first task in the study; `attempts`: how often each was tried.
+Error failed_tasks(const Round& round, const FailedTasks& failed, std::uint64_t first, int attempts,
+                   Errc code = Errc::internal);
 
 /// Numbers of the tasks of a round without a result, ascending.
 std::vector<std::uint64_t> missing_tasks(const ResultStore& store, const Round& round);

@@ -27,7 +27,6 @@ class TestEngine final : public Engine {
   int exit_of_all = 0;
 
   unsigned slots() const override { return 2; }
-  bool queues() const override { return false; }
   double period_s() const override { return 0.001; }
   void cancel() override {}
   bool submit(std::span<const Attempt> attempts) override {
@@ -96,8 +95,8 @@ TEST_CASE(
     message = e.what();
   }
   CHECK_MESSAGE(message.find("2 of 50 tasks of this round failed 3 times") != std::string::npos, message);
-  CHECK_MESSAGE(message.find("task 20 (): the worker ended with signal 9") != std::string::npos, message);
-  CHECK_MESSAGE(message.find("task 31 (): no cells") != std::string::npos, message);
+  CHECK_MESSAGE(message.find("task 20: the worker ended with signal 9") != std::string::npos, message);
+  CHECK_MESSAGE(message.find("task 31: no cells") != std::string::npos, message);
   CHECK(s.store.size() == 48);
   // The same command tries the failed tasks again, and no other.
   s.tasks.dies.clear();
@@ -114,7 +113,39 @@ TEST_CASE("an engine whose workers never give a result, or refuse the study, is 
   CHECK_THROWS_WITH(s.run(), doctest::Contains("a worker refused the study"));
 }
 
-TEST_CASE("chunks take 10 to 60 s, less at the end, one task while the time is unknown") {
+TEST_CASE("an engine with a queue accepts attempts when half of it is used") {
+  struct Queue final : Engine {
+    unsigned slots() const override { return 3; }
+    bool queues() const override { return true; }
+    bool submit(std::span<const Attempt>) override { return true; }
+    std::vector<AttemptEnd> ended() override { return {}; }
+    double period_s() const override { return 1; }
+    void cancel() override {}
+  };
+  CHECK(Queue().accepts(0, false) == 6);
+  CHECK(Queue().accepts(0, true) == 12);
+  CHECK(Queue().accepts(6, true) == 6);
+  CHECK(Queue().accepts(7, true) == 0);
+  const TestEngine free_workers(0, 1);
+  CHECK(free_workers.accepts(0, true) == 2);
+  CHECK(free_workers.accepts(2, true) == 0);
+  CHECK(free_workers.accepts(5, true) == 0);
+}
+
+TEST_CASE("a round whose every second task has a result is computed, although lists of tasks are limited") {
+  const test::TemporaryFolder folder("engine");
+  ResultStore store(folder.path() / "results", "study");
+  const Round round{"tasks", 30000, {}};
+  const std::uint64_t key = store.key(round);
+  const std::vector<double> value{1};
+  for (std::uint64_t i = 0; i < round.size; i += 2) store.add({key, i}, value, 1e-6);
+  EngineRun::Reports reports{[](auto, auto) {}, [] { return false; }, [](const std::string&) {}};
+  EngineRun run(std::make_unique<TestEngine>(key, 1), "test", folder.path(), std::move(reports));
+  CHECK(run(round, store));
+  CHECK(store.size() == round.size);
+}
+
+TEST_CASE("chunks take at most 60 s, less at the end, one task while the time is unknown") {
   CHECK(ChunkSize{1000, 4, {}, false}.tasks() == 1);
   CHECK(ChunkSize{1000, 4, {}, true}.tasks() == 20);
   CHECK(ChunkSize{1000000, 4, 0.05, false}.tasks() == 1200);  // 60 s
@@ -122,6 +153,7 @@ TEST_CASE("chunks take 10 to 60 s, less at the end, one task while the time is u
   CHECK(ChunkSize{40, 2, 0.05, false}.tasks() == 20);         // 1 s
   CHECK(ChunkSize{10, 2, 100, false}.tasks() == 1);
   CHECK(ChunkSize{2000, 3, 0.05, true}.tasks() == 166);
+  CHECK(ChunkSize{2000, 2, 0.005, true}.tasks() == 1000);  // 5 s
 }
 
 TEST_CASE("settings of an engine: name or file, and single values") {

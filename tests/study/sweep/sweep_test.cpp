@@ -1,9 +1,11 @@
 #include "study/sweep/sweep.h"
 
 #include <doctest/doctest.h>
+#include <zlib.h>
 
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 
@@ -11,6 +13,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "study/sweep/program_version.h"
 #include "study/sweep/round_planner.h"
 #include "study/sweep/study_directory.h"
 #include "tests/temporary_folder.h"
@@ -87,7 +90,42 @@ TEST_CASE("shards run each task once, and together all tasks") {
   CHECK(work.done == 11);
 }
 
-TEST_CASE("NaN is stored; an error of a task ends the sweep; damaged files and those of others are refused") {
+TEST_CASE("a task that fails is named at the end; all others are computed, and only it is tried again") {
+  const test::TemporaryFolder folder("sweep");
+  ResultStore store(folder.path(), "study");
+  Work work(20);
+  Round round = work.round;
+  bool broken = true;
+  round.work = [&](std::uint64_t i) {
+    if (i == 4 && broken) throw Error(Errc::input, "film.avi", "is empty");
+    return work.round.work(i);
+  };
+  round.labels = [](std::uint64_t i) { return std::vector<TaskLabel>{{"seed", std::to_string(i)}}; };
+  try {
+    sweep(store, round, {});
+    FAIL("no error");
+  } catch (const Error& e) {
+    CHECK(e.code() == Errc::input);
+    CHECK(std::string(e.what()).starts_with(
+        "1 of 20 tasks of this round failed: task 5 (seed 4): film.avi: is empty; the results"));
+  }
+  CHECK(store.size() == 19);
+  broken = false;
+  CHECK(sweep(store, round, {}));
+  CHECK(work.done == 20);
+  // When nothing works, the sweep does not try everything.
+  std::atomic<int> tried = 0;
+  Round hopeless{"hopeless", 1000, [&](std::uint64_t) -> std::vector<double> {
+                   ++tried;
+                   throw Error(Errc::usage, "", "no");
+                 }};
+  SweepOptions one;
+  one.threads = 1;
+  CHECK_THROWS_AS(sweep(store, hopeless, one), Error);
+  CHECK(tried == int(kHopelessTasks));
+}
+
+TEST_CASE("NaN is stored; damaged files and those of other studies and programs are refused") {
   const test::TemporaryFolder folder("sweep");
   const auto& f = folder.path();
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -106,14 +144,25 @@ TEST_CASE("NaN is stored; an error of a task ends the sweep; damaged files and t
   CHECK_THROWS_WITH(sweep(other, bad, {}), doctest::Contains("no"));
 
   const auto file = only_file(f / "r");
+  // Another build of the same version.
+  std::string by_other = read_file(file);
+  const std::string version = program_version();
+  by_other[40 + version.size() - 1] ^= 1;
+  const std::uint32_t sum =
+      std::uint32_t(crc32_z(0, reinterpret_cast<const unsigned char*>(by_other.data()), 60));
+  std::memcpy(by_other.data() + 60, &sum, 4);
+  std::filesystem::create_directories(f / "t");
+  write_file(f / "t/a.results", by_other);
+  CHECK_THROWS_WITH(ResultStore(f / "t", "study"), doctest::Contains(("this is faba " + version).c_str()));
+
   CHECK_THROWS_WITH(ResultStore(f / "r", "another"), doctest::Contains("a different study"));
   std::string content = read_file(file);
   content[content.size() - 3] ^= 1;
   write_file(file, content);
   CHECK_THROWS_WITH(ResultStore(f / "r", "study"), doctest::Contains("is damaged at byte 64"));
-  std::string version = read_file(file);
-  version[40] = '9';
-  write_file(file, version);
+  content = read_file(file);
+  content[40] = '9';
+  write_file(file, content);
   CHECK_THROWS_WITH(ResultStore(f / "r", "study"), doctest::Contains("not a file of results"));
 }
 

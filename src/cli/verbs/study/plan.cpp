@@ -18,13 +18,19 @@ std::string verb_of(const std::filesystem::path& study) {
   const auto kind = file_kind(Node(d));
   if (kind == FileKind::identify_study) return "identify";
   if (kind == FileKind::controller_study) return "compare-controllers";
+  if (kind == FileKind::activity_study) return "activity";
   throw Error(Errc::usage, study.string(),
-              "is not a study of simulations; it must be a study for `faba identify` or `faba "
-              "compare-controllers`");
+              "is not a study that can be planned; it must be a study for `faba identify`, `faba "
+              "compare-controllers` or `faba activity`");
 }
 
 int study_plan(const StudyOptions& v, const Common& c) {
-  const auto job = study_job({verb_of(v.study), v.study, {}, {}}, true);
+  StudySource source{verb_of(v.study), v.study, {}, {}};
+  if (source.verb == "activity") {  // its inputs are words of the command
+    source.options = {v.study.string()};
+    source.file.clear();
+  }
+  const auto job = study_job(source, true);
   plan_or_complete(*job, v, c);
   return 0;
 }
@@ -60,7 +66,8 @@ void add_study_plan(CLI::App& study, CommandLine& line) {
                      "  faba study plan study.toml --out runs/mine\n"
                      "  faba study work runs/mine --tasks 1-100 --results runs/mine/results/a.results\n"
                      "  faba study collect runs/mine");
-  v->add_option("study", o->study, "Study file (TOML) of identify or compare-controllers")->required();
+  v->add_option("study", o->study, "Study file (TOML) of identify, compare-controllers or activity")
+      ->required();
   v->add_option("-o,--out", o->out, "Directory of the study; default: runs/NAME")->check(not_empty);
   v->add_flag("--force", o->force, "Replace another study in the directory");
   v->callback([o, &line] { line.code = study_plan(*o, line.common); });

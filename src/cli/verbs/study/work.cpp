@@ -112,13 +112,19 @@ class Worker {
   std::mutex storing_;
 };
 
-int study_work(const WorkVerb& v, const Common& c) {
+int study_work(WorkVerb v, const Common& c) {
   end_with_parent(v.parent);
   (void)stop_requested();
   if (v.results.extension() != ".results")
     throw Error(Errc::usage, "--results",
                 fmt::format("{}: the name must end in .results", v.results.string()));
   const StoredStudy stored = stored_study(v.dir);
+  if (!stored.source.folder.empty()) {  // in which the command of the study found its videos
+    const std::filesystem::path folder = std::filesystem::absolute(stored.source.folder);
+    v.dir = std::filesystem::absolute(v.dir);
+    v.results = std::filesystem::absolute(v.results);
+    std::filesystem::current_path(folder);
+  }
   const auto job = study_job(stored.source, false);
   if (job->hash() != stored.hash)
     throw Error(Errc::usage, stored.source.file.string(),

@@ -6,11 +6,11 @@
 #include <string>
 
 #include "cli/command_line.h"
-#include "cli/options/flow.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
 #include "cli/quality_text.h"
+#include "cli/verbs/activity/activity_verb.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "study/data/run_video.h"
@@ -20,54 +20,6 @@
 
 namespace faba::cli {
 namespace {
-
-struct ActivityVerb {
-  std::vector<std::filesystem::path> videos;  ///< or one study file
-  std::filesystem::path noise, out, report, picture;
-  ResponseOptions response;
-  std::optional<double> reversal;  ///< s
-  FlowOptions flow;
-  bool force = false;
-};
-
-ActivityJob job_of(const ActivityVerb& v) {
-  ActivityJob job;
-  const FlowChoice choice{v.flow.method, v.flow.values};
-  job.method = flow_part(choice, published_flow());
-  job.options_text = options_text(choice, v.flow.shrink, v.flow.fps);
-  job.frames = !v.picture.empty();
-  job.noise = v.noise;
-  job.shrink = v.flow.shrink;
-  job.fps = v.flow.fps;
-  job.threads = v.flow.threads;
-  if (v.videos.size() == 1 && v.videos.front().extension() == ".toml") {
-    read_activity_study(v.videos.front(), job);
-    if (!choice.values.empty()) job.method = flow_part(choice, published_flow());
-    if (!v.noise.empty()) {
-      job.noise = v.noise;
-      job.threshold_px.reset();
-    }
-  } else {
-    for (const auto& video : v.videos)
-      if (video.extension() == ".toml")
-        throw Error(Errc::usage, video.string(), "is a study file; give either one study file or videos");
-    for (const auto& video : v.videos) job.videos.push_back({.file = video});
-  }
-  for (ActivityInput& input : job.videos) {
-    const PartOptions part{v.flow.part.from ? v.flow.part.from : input.from_s,
-                           v.flow.part.to ? v.flow.part.to : input.to_s};
-    input.from_s = part.part().from_s;
-    input.to_s = part.to;
-    if (v.response.direction) input.direction_deg = v.response.direction;
-    if (v.reversal) input.reversal_s = v.reversal;
-    if (input.reversal_s && input.to_s && *input.reversal_s >= *input.to_s)
-      throw Error(Errc::usage, "--reversal",
-                  fmt::format("{:g} s is not before the end of the evaluation, {:g} s", *input.reversal_s,
-                              *input.to_s));
-  }
-  if (v.response.flow_threshold) job.threshold_px = v.response.flow_threshold;
-  return job;
-}
 
 std::string line_text(double intercept, double slope) {
   return fmt::format("{:.4g} {} {:.4g} x exposure", intercept, slope < 0 ? '-' : '+', std::fabs(slope));
@@ -153,6 +105,9 @@ void summary(const ActivityResult& r) {
 }
 
 int activity(const ActivityVerb& v, const Common& c) {
+  check_engine(v.engine);
+  if (v.engine.engine.empty() && !v.folder.empty())
+    throw Error(Errc::usage, "--folder", "requires --engine, such as --engine local");
   std::vector<std::filesystem::path> inputs = v.videos;
   inputs.push_back(v.noise);
   check_distinct({v.out, v.report, v.picture});
@@ -171,12 +126,9 @@ int activity(const ActivityVerb& v, const Common& c) {
     throw Error(Errc::usage, "--picture",
                 fmt::format("requires a single video, but {} are given", job.videos.size()));
   expect_videos();
+  if (!v.engine.engine.empty()) return activity_on_engine(v, c);
   Provenance provenance;
-  if (c.json || !v.report.empty()) {
-    for (const ActivityInput& input : job.videos) inputs.push_back(input.file);
-    inputs.push_back(job.noise);
-    provenance = provenance_of(c, inputs);
-  }
+  if (c.json || !v.report.empty()) provenance = provenance_of(c, inputs_of(v, job));
   Progress bar("measuring", !c.quiet && !c.json);
   job.progress = [&](std::size_t video, std::uint64_t done, std::uint64_t total) {
     if (total > 0) bar.update(video * total + std::min(done, total), job.videos.size() * total);
@@ -192,17 +144,95 @@ int activity(const ActivityVerb& v, const Common& c) {
     return 0;
   }
   if (c.quiet) return 0;
-  for (const VideoActivity& a : result.videos)
-    for (const std::string& note : a.notes)
-      print_stderr(fmt::format("faba: note: {}: {}", a.input.file.string(), note));
-  summary(result);
-  print_quality(all_warnings(result));
+  print_activity(result);
   for (const auto& file : {v.out, v.report, v.picture})
     if (!file.empty()) fmt::print("wrote {}\n", file.string());
   return 0;
 }
 
 }  // namespace
+
+ActivityJob job_of(const ActivityVerb& v) {
+  ActivityJob job;
+  const FlowChoice choice{v.flow.method, v.flow.values};
+  job.method = flow_part(choice, published_flow());
+  job.options_text = options_text(choice, v.flow.shrink, v.flow.fps);
+  job.frames = !v.picture.empty();
+  job.noise = v.noise;
+  job.shrink = v.flow.shrink;
+  job.fps = v.flow.fps;
+  job.threads = v.flow.threads;
+  if (v.videos.size() == 1 && v.videos.front().extension() == ".toml") {
+    read_activity_study(v.videos.front(), job);
+    if (!choice.values.empty()) job.method = flow_part(choice, published_flow());
+    if (!v.noise.empty()) {
+      job.noise = v.noise;
+      job.threshold_px.reset();
+    }
+  } else {
+    for (const auto& video : v.videos)
+      if (video.extension() == ".toml")
+        throw Error(Errc::usage, video.string(), "is a study file; give either one study file or videos");
+    for (const auto& video : v.videos) job.videos.push_back({.file = video});
+  }
+  for (ActivityInput& input : job.videos) {
+    const PartOptions part{v.flow.part.from ? v.flow.part.from : input.from_s,
+                           v.flow.part.to ? v.flow.part.to : input.to_s};
+    input.from_s = part.part().from_s;
+    input.to_s = part.to;
+    if (v.response.direction) input.direction_deg = v.response.direction;
+    if (v.reversal) input.reversal_s = v.reversal;
+    if (input.reversal_s && input.to_s && *input.reversal_s >= *input.to_s)
+      throw Error(Errc::usage, "--reversal",
+                  fmt::format("{:g} s is not before the end of the evaluation, {:g} s", *input.reversal_s,
+                              *input.to_s));
+  }
+  if (v.response.flow_threshold) job.threshold_px = v.response.flow_threshold;
+  return job;
+}
+
+std::vector<std::filesystem::path> inputs_of(const ActivityVerb& v, const ActivityJob& job) {
+  std::vector<std::filesystem::path> inputs = v.videos;
+  inputs.push_back(v.noise);
+  for (const ActivityInput& input : job.videos) inputs.push_back(input.file);
+  inputs.push_back(job.noise);
+  return inputs;
+}
+
+void print_activity(const ActivityResult& result) {
+  for (const VideoActivity& a : result.videos)
+    for (const std::string& note : a.notes)
+      print_stderr(fmt::format("faba: note: {}: {}", a.input.file.string(), note));
+  summary(result);
+  print_quality(all_warnings(result));
+}
+
+void add_activity_options(CLI::App* v, ActivityVerb& o) {
+  v->add_option("videos", o.videos,
+                "Videos, run directories or flow files; or a study file (TOML) that lists them")
+      ->required();
+  add_response_options(v, o.response);
+  v->add_option("--reversal", o.reversal,
+                "Time of the field reversal in the video, s; default: as recorded by a run, else unknown")
+      ->check(between(0, 1e9))
+      ->transform(in_seconds);
+  v->add_option("--noise", o.noise, "Video of a dead sample, from which the threshold is measured")
+      ->check(not_empty)
+      ->excludes("--flow-threshold");
+  v->add_option("-o,--out", o.out, "Write the activity signatures, as CSV")->check(not_empty);
+  v->add_option("--report", o.report, "Write a page with all figures, as HTML")->check(not_empty);
+  v->add_option("--picture", o.picture,
+                "Single video: write the flow of the pair with the largest activity, before and after "
+                "filtering, as PNG")
+      ->check(not_empty);
+  v->add_flag("--force", o.force, "Replace existing files, and with --folder the results of another study");
+  v->add_option(
+       "--folder", o.folder,
+       "With --engine: directory of the study; default: runs/activity. An incomplete study is resumed")
+      ->check(not_empty);
+  add_engine_options(v, o.engine);
+  add_flow_options(v, o.flow, published_flow());
+}
 
 void add_activity(CLI::App& app, CommandLine& line) {
   const auto o = std::make_shared<ActivityVerb>();
@@ -212,26 +242,8 @@ void add_activity(CLI::App& app, CommandLine& line) {
            "  faba activity film.mp4 --report activity.html\n"
            "  faba activity film.mp4 --direction 90 --reversal \"1 s\"\n"
            "  faba activity film.mp4 --direction 90 --noise dead.mp4 --out signature.csv\n"
-           "  faba activity study.toml --report study.html");
-  v->add_option("videos", o->videos,
-                "Videos, run directories or flow files; or a study file (TOML) that lists them")
-      ->required();
-  add_response_options(v, o->response);
-  v->add_option("--reversal", o->reversal,
-                "Time of the field reversal in the video, s; default: as recorded by a run, else unknown")
-      ->check(between(0, 1e9))
-      ->transform(in_seconds);
-  v->add_option("--noise", o->noise, "Video of a dead sample, from which the threshold is measured")
-      ->check(not_empty)
-      ->excludes("--flow-threshold");
-  v->add_option("-o,--out", o->out, "Write the activity signatures, as CSV")->check(not_empty);
-  v->add_option("--report", o->report, "Write a page with all figures, as HTML")->check(not_empty);
-  v->add_option("--picture", o->picture,
-                "Single video: write the flow of the pair with the largest activity, before and after "
-                "filtering, as PNG")
-      ->check(not_empty);
-  v->add_flag("--force", o->force, "Replace existing files");
-  add_flow_options(v, o->flow, published_flow());
+           "  faba activity study.toml --report study.html --engine local");
+  add_activity_options(v, *o);
   v->callback([o, &line] { line.code = activity(*o, line.common); });
 }
 

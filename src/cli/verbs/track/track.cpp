@@ -8,11 +8,11 @@
 
 #include "app/scenario/calibration_file.h"
 #include "cli/command_line.h"
-#include "cli/options/video_part.h"
 #include "cli/output_file.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
 #include "cli/quality_text.h"
+#include "cli/verbs/track/track_verb.h"
 #include "core/counted.h"
 #include "core/error.h"
 #include "study/data/run_video.h"
@@ -24,70 +24,9 @@
 namespace faba::cli {
 namespace {
 
-struct TrackVerb {
-  std::filesystem::path video, swarm, overlay, report, picture, figures, per_track, preview;
-  std::vector<std::filesystem::path> out;
-  std::string scale;        ///< number or calibration file
-  std::vector<int> region;  ///< column, row, width, height
-  std::string polarity = "auto", background = "auto", motion = "auto";
-  double fps = 0, size_px = 0, threshold = 0, search_radius_px = 0;
-  int max_gap_frames = 2, min_points = 3, interval = 0;
-  PartOptions part;
-  unsigned threads = 0;
-  bool drop = false, keep_drift = false, force = false;
-};
-
 template <class Enum>
 Enum chosen(const std::string& word, const std::vector<const char*>& words) {
   return Enum(std::find(words.begin(), words.end(), word) - words.begin());
-}
-
-TrackOptions options_of(const TrackVerb& v) {
-  TrackOptions o;
-  o.video = v.video;
-  o.part = v.part.part(v.fps);
-  o.threads = v.threads;
-  o.out = v.out;
-  if (!v.scale.empty()) {
-    const Calibration c = parse_calibration(v.scale, "--um-per-px");
-    o.scale = {c.um_per_px, c.typed() ? "typed" : "calibration", ""};
-  }
-  o.swarm = v.swarm;
-  o.overlay = v.overlay;
-  o.report = v.report;
-  o.picture = v.picture;
-  o.figures = v.figures;
-  o.size_px = v.size_px;
-  o.threshold_sd = v.threshold;
-  o.inside_drop = v.drop;
-  o.keep_drift = v.keep_drift;
-  o.per_track = v.per_track;
-  if (!v.region.empty()) o.region = PixelRegion{v.region[0], v.region[1], v.region[2], v.region[3]};
-  o.interval_frames = v.interval;
-  o.polarity = chosen<Polarity>(v.polarity, {"auto", "dark", "bright", "both"});
-  o.background = chosen<BackgroundKind>(v.background, {"auto", "median", "spatial"});
-  o.tracker.motion = chosen<Motion>(v.motion, {"auto", "nearest", "velocity"});
-  o.tracker.search_radius_px = v.search_radius_px;
-  o.tracker.max_gap_frames = v.max_gap_frames;
-  o.tracker.min_points = v.min_points;
-  return o;
-}
-
-void check_outputs(const TrackVerb& v) {
-  for (const auto& path : v.out) check_output(path, {".csv", ".h5"}, v.force, {v.video});
-  std::vector<std::filesystem::path> all = v.out;
-  all.insert(all.end(), {v.swarm, v.overlay, v.report, v.picture, v.per_track, v.preview});
-  check_distinct(std::move(all));
-  check_output(v.swarm, {".csv"}, v.force, {v.video});
-  check_output(v.overlay, {".mp4", ".avi"}, v.force, {v.video});
-  check_output(v.report, {".html"}, v.force, {v.video});
-  check_output(v.picture, {".png"}, v.force, {v.video});
-  check_output(v.preview, {".png"}, v.force, {v.video});
-  check_output(v.per_track, {".csv"}, v.force, {v.video});
-  check_output_folder(v.figures, "--figures");
-  if (!v.figures.empty() && std::filesystem::is_directory(v.figures))
-    for (const char* name : {"tracks.svg", "speeds.svg", "msd.svg", "heading.svg"})
-      check_output(v.figures / name, {".svg"}, v.force, {v.video});
 }
 
 // Formats numbers with their standard errors: in um if there is a scale, per frame if times are frame
@@ -172,10 +111,11 @@ void print_summary(const TrackMeasurement& m) {
 int preview(const TrackVerb& v, const Common& c) {
   const auto& stop = stop_requested();
   Progress bar("preview", !c.quiet);
-  const TrackPreview p = preview_video(options_of(v), v.preview, [&](std::int64_t done, std::int64_t total) {
-    bar.update(std::uint64_t(done), std::uint64_t(total));
-    return !stop;
-  });
+  const TrackPreview p =
+      preview_video(options_of(v, v.videos.front()), v.preview, [&](std::int64_t done, std::int64_t total) {
+        bar.update(std::uint64_t(done), std::uint64_t(total));
+        return !stop;
+      });
   bar.clear();
   if (c.json) {
     fmt::print("{}\n", preview_json(p).dump());
@@ -193,13 +133,18 @@ int preview(const TrackVerb& v, const Common& c) {
 }
 
 int track(const TrackVerb& v, const Common& c) {
-  check_outputs(v);
+  if (v.videos.size() > 1 || !v.folder.empty()) return track_videos(v, c);
+  if (!v.engine.engine.empty())
+    throw Error(Errc::usage, "--engine",
+                "requires several videos, or --folder: one video is computed by one worker");
+  check_engine(v.engine);
+  check_outputs(v, v.force, v.videos);
   expect_videos();
   if (!v.preview.empty()) return preview(v, c);
   const auto& stop = stop_requested();
   Progress bar("tracking", !c.quiet);
-  TrackOptions options = options_of(v);
-  if (c.json || !v.report.empty()) options.provenance = provenance_of(c, {v.video});
+  TrackOptions options = options_of(v, v.videos.front());
+  if (c.json || !v.report.empty()) options.provenance = provenance_of(c, v.videos);
   const TrackMeasurement tracks = track_video(options, [&](std::int64_t done, std::int64_t total) {
     bar.update(std::uint64_t(done), std::uint64_t(total));
     return !stop;
@@ -222,80 +167,141 @@ int track(const TrackVerb& v, const Common& c) {
 
 }  // namespace
 
-void add_track(CLI::App& app, CommandLine& line) {
-  const auto t = std::make_shared<TrackVerb>();
-  CLI::App* v =
-      verb(app, line, "track", "Detect and track cells or beads in a video and measure how they move",
-           "  faba track film.avi --um-per-px 0.35 --out tracks.csv --report tracks.html\n"
-           "  faba track 'frames/frame_*.tif' --fps 26.87 --out tracks.h5 --overlay seen.mp4");
-  v->add_option("video", t->video,
-                "Video, TIFF stack, folder of pictures, quoted file name pattern, or run directory")
+TrackOptions options_of(const TrackVerb& v, const std::filesystem::path& video) {
+  TrackOptions o;
+  o.video = video;
+  o.part = v.part.part(v.fps);
+  o.threads = v.threads;
+  o.out = v.out;
+  if (!v.scale.empty()) {
+    const Calibration c = parse_calibration(v.scale, "--um-per-px");
+    o.scale = {c.um_per_px, c.typed() ? "typed" : "calibration", ""};
+  }
+  o.swarm = v.swarm;
+  o.overlay = v.overlay;
+  o.report = v.report;
+  o.picture = v.picture;
+  o.figures = v.figures;
+  o.size_px = v.size_px;
+  o.threshold_sd = v.threshold;
+  o.inside_drop = v.drop;
+  o.keep_drift = v.keep_drift;
+  o.per_track = v.per_track;
+  if (!v.region.empty()) o.region = PixelRegion{v.region[0], v.region[1], v.region[2], v.region[3]};
+  o.interval_frames = v.interval;
+  o.polarity = chosen<Polarity>(v.polarity, {"auto", "dark", "bright", "both"});
+  o.background = chosen<BackgroundKind>(v.background, {"auto", "median", "spatial"});
+  o.tracker.motion = chosen<Motion>(v.motion, {"auto", "nearest", "velocity"});
+  o.tracker.search_radius_px = v.search_radius_px;
+  o.tracker.max_gap_frames = v.max_gap_frames;
+  o.tracker.min_points = v.min_points;
+  return o;
+}
+
+void check_outputs(const TrackVerb& v, bool force, const std::vector<std::filesystem::path>& inputs) {
+  for (const auto& path : v.out) check_output(path, {".csv", ".h5"}, force, inputs);
+  std::vector<std::filesystem::path> all = v.out;
+  all.insert(all.end(), {v.swarm, v.overlay, v.report, v.picture, v.per_track, v.preview});
+  check_distinct(std::move(all));
+  check_output(v.swarm, {".csv"}, force, inputs);
+  check_output(v.overlay, {".mp4", ".avi"}, force, inputs);
+  check_output(v.report, {".html"}, force, inputs);
+  check_output(v.picture, {".png"}, force, inputs);
+  check_output(v.preview, {".png"}, force, inputs);
+  check_output(v.per_track, {".csv"}, force, inputs);
+  check_output_folder(v.figures, "--figures");
+  if (!v.figures.empty() && std::filesystem::is_directory(v.figures))
+    for (const char* name : {"tracks.svg", "speeds.svg", "msd.svg", "heading.svg"})
+      check_output(v.figures / name, {".svg"}, force, inputs);
+}
+
+void add_track_options(CLI::App* v, TrackVerb& t) {
+  v->add_option(
+       "videos", t.videos,
+       "Video, TIFF stack, folder of pictures, quoted file name pattern, or run directory; several give "
+       "a folder of results each, see --folder")
       ->required();
-  v->add_option("--fps", t->fps,
+  v->add_option("--fps", t.fps,
                 "Frames per second, if the video states none or a wrong value; default: that of the video")
       ->check(between(1e-6, 1e7));
-  add_part_options(v, t->part);
-  add_threads_option(v, t->threads);
-  v->add_option("--um-per-px", t->scale,
+  add_part_options(v, t.part);
+  add_threads_option(v, t.threads);
+  v->add_option("--um-per-px", t.scale,
                 "Scale: micrometres per pixel, or a calibration file from `faba scale`; default: that of a "
                 "run directory, else results in px")
       ->check(not_empty);
-  v->add_option("--out", t->out,
-                "Write the tracks, as CSV or HDF5 by the file extension; may be given twice");
-  v->add_option("--swarm", t->swarm, "Write centroid and covariance of the swarm in each frame, as CSV");
-  v->add_option("--overlay", t->overlay, "Write the video with the tracks, as MP4 or AVI");
-  v->add_option("--report", t->report, "Write a page with all figures, as HTML");
-  v->add_option("--picture", t->picture, "Write the first frame with all tracks, as PNG");
-  v->add_option("--per-track", t->per_track, "Write a row with length and quality of each track, as CSV");
-  v->add_option("--figures", t->figures, "Write the figures into this folder, as SVG");
+  v->add_option("--out", t.out, "Write the tracks, as CSV or HDF5 by the file extension; may be given twice");
+  v->add_option(
+       "--folder", t.folder,
+       "Several videos: directory of the results; default: runs/tracks. Each video has a folder in it, "
+       "and outputs are names of files in this folder. An incomplete directory is resumed")
+      ->check(not_empty);
+  v->add_option("--swarm", t.swarm, "Write centroid and covariance of the swarm in each frame, as CSV");
+  v->add_option("--overlay", t.overlay, "Write the video with the tracks, as MP4 or AVI");
+  v->add_option("--report", t.report, "Write a page with all figures, as HTML");
+  v->add_option("--picture", t.picture, "Write the first frame with all tracks, as PNG");
+  v->add_option("--per-track", t.per_track, "Write a row with length and quality of each track, as CSV");
+  v->add_option("--figures", t.figures, "Write the figures into this folder, as SVG");
   CLI::Option* preview =
-      v->add_option("--preview", t->preview,
+      v->add_option("--preview", t.preview,
                     "Detect the cells in some frames only, write these frames as PNG, and do not track");
   for (const char* other :
        {"--out", "--swarm", "--overlay", "--report", "--picture", "--per-track", "--figures"})
     preview->excludes(other);
-  v->add_option("--size", t->size_px, "Full width of a cell at half its contrast, px; default: measured")
+  v->add_option("--size", t.size_px, "Full width of a cell at half its contrast, px; default: measured")
       ->check(between(1, 60));
-  v->add_option("--polarity", t->polarity, "Cells are dark, bright or both; default: auto, measured")
+  v->add_option("--polarity", t.polarity, "Cells are dark, bright or both; default: auto, measured")
       ->check(one_of({"auto", "dark", "bright", "both"}));
-  v->add_option("--background", t->background,
+  v->add_option("--background", t.background,
                 "Background: median of the video, or spatial (each frame, smoothed); default: auto, chosen "
                 "for the video")
       ->check(one_of({"auto", "median", "spatial"}));
   v->add_option(
-       "--threshold", t->threshold,
+       "--threshold", t.threshold,
        "Minimum signal-to-noise ratio of a spot; default: the value that gives one false detection in "
        "10 frames")
       ->check(between(1, 1e6));
-  v->add_option("--reach", t->search_radius_px,
+  v->add_option("--reach", t.search_radius_px,
                 "Maximum displacement between two frames, px; default: measured")
       ->check(between(0.1, 1e5));
-  v->add_option("--motion", t->motion,
+  v->add_option("--motion", t.motion,
                 "Predict positions by velocity, or use the nearest spot; default: auto, chosen for the video")
       ->check(one_of({"auto", "nearest", "velocity"}));
   v->add_option(
-       "--memory", t->max_gap_frames,
+       "--memory", t.max_gap_frames,
        fmt::format("Maximum number of consecutive frames without a detection of the cell; default: {}",
-                   t->max_gap_frames))
+                   t.max_gap_frames))
       ->check(integers(0, 1000));
-  v->add_option("--least", t->min_points,
-                fmt::format("Minimum number of detections of a track; default: {}", t->min_points))
+  v->add_option("--least", t.min_points,
+                fmt::format("Minimum number of detections of a track; default: {}", t.min_points))
       ->check(integers(1, 100000));
   v->add_option(
-       "--interval", t->interval,
+       "--interval", t.interval,
        "Number of frames over which displacements are measured for speeds and turns; default: measured")
       ->check(integers(1, 100000));
   v->add_option(
-       "--region", t->region,
+       "--region", t.region,
        "Search this part of the frames only: column and row of its corner at the top left, width and "
        "height, px; default: all")
       ->delimiter(',')
       ->expected(4);
-  v->add_flag("--keep-drift", t->keep_drift,
+  v->add_flag("--keep-drift", t.keep_drift,
               "Do not subtract the motion of the stage from speeds and displacements; default: subtracted "
               "where objects fixed to the stage show it");
-  v->add_flag("--drop", t->drop, "Detect the edge of the drop in the first frame and search inside it only");
-  v->add_flag("--force", t->force, "Replace existing files");
+  v->add_flag("--drop", t.drop, "Detect the edge of the drop in the first frame and search inside it only");
+  v->add_flag("--force", t.force,
+              "Replace existing files; several videos: replace other results in the directory");
+  add_engine_options(v, t.engine);
+}
+
+void add_track(CLI::App& app, CommandLine& line) {
+  const auto t = std::make_shared<TrackVerb>();
+  CLI::App* v =
+      verb(app, line, "track", "Detect and track cells or beads in videos and measure how they move",
+           "  faba track film.avi --um-per-px 0.35 --out tracks.csv --report tracks.html\n"
+           "  faba track 'frames/frame_*.tif' --fps 26.87 --out tracks.h5 --overlay seen.mp4\n"
+           "  faba track films/*.avi --folder runs/films --out tracks.csv --engine local");
+  add_track_options(v, *t);
   v->callback([t, &line] { line.code = track(*t, line.common); });
 }
 
