@@ -6,6 +6,7 @@
 #include "app/scenario/scenario_schema.h"
 #include "app/sinks/series_columns.h"
 #include "cli/command_line.h"
+#include "study/calibrate/calibration_study.h"
 #include "study/identify/identify.h"
 #include "study/motion/activity_study.h"
 #include "study/steering/controller_study.h"
@@ -35,6 +36,7 @@ int schema(const std::string& file, const Common& c) {
   const Parts& parts = builtin_parts();
   const Json j = file == "rig"                   ? rig_file_json_schema(parts)
                  : file == "identify"            ? identify_study_schema()
+                 : file == "calibrate"           ? calibration_study_schema()
                  : file == "compare-controllers" ? controller_study_schema()
                  : file == "activity"            ? activity_study_schema()
                  : file == "moment"              ? moment_study_schema()
@@ -53,7 +55,8 @@ void add_schema(CLI::App& app, CommandLine& line) {
   v->add_option("kind", *of,
                 "Kind of file: scenario (default) or rig; the verb that reads the study file; or series, "
                 "which lists the columns of series.csv")
-      ->check(one_of({"scenario", "rig", "identify", "compare-controllers", "activity", "moment", "series"}));
+      ->check(one_of({"scenario", "rig", "identify", "calibrate", "compare-controllers", "activity", "moment",
+                      "series"}));
   v->callback([of, &line] { line.code = schema(*of, line.common); });
 }
 

@@ -56,6 +56,8 @@ Json identify_study_schema();
 /// Sets the digest of each video. It depends on the content and not on the path: a different video under the
 /// same name is a different study, and a study under another mount point is the same.
 void digest_videos(IdentifyStudy& study);
+/// Sets the digests that another process computed. Throws Error(usage) if their number is wrong.
+void take_digests(IdentifyStudy& study, const std::vector<std::string>& digests);
 /// Hash of everything that the result depends on, with the digests of the videos.
 std::string study_hash(const IdentifyStudy& study);
 /// Hash of everything that the measurement of a video depends on.

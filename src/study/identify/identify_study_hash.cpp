@@ -1,6 +1,9 @@
+#include <fmt/format.h>
+
 #include <fstream>
 #include <set>
 
+#include "core/error.h"
 #include "core/hash.h"
 #include "study/data/run_video.h"
 #include "study/identify/identify_study.h"
@@ -55,6 +58,14 @@ void digest_videos(IdentifyStudy& study) {
     hash_content(v.file, h);
     v.digest = h.hex();
   }
+}
+
+void take_digests(IdentifyStudy& study, const std::vector<std::string>& digests) {
+  if (digests.size() != study.videos.size())
+    throw Error(
+        Errc::usage, study.title,
+        fmt::format("has {} videos, but the study was planned with {}", study.videos.size(), digests.size()));
+  for (std::size_t v = 0; v < study.videos.size(); ++v) study.videos[v].digest = digests[v];
 }
 
 std::string measurement_key(const IdentifyStudy& study, std::size_t video) {

@@ -15,9 +15,13 @@ using OrderedJson = nlohmann::ordered_json;
 using namespace study_files;
 
 // Everything that a study writes into its directory, apart from study.json and the marker.
-constexpr const char* kWritten[] = {"identify.json",    "identify.html",   "best.toml",   "background.png",
-                                    "controllers.json", "controllers.csv", "report.html", kResults,
-                                    "results.jsonl",    kRounds,           kMeasured,     kJobs,
+constexpr const char* kWritten[] = {"identify.json",    "identify.html",
+                                    "best.toml",        "background.png",
+                                    "calibration.json", "calibration.html",
+                                    "controllers.json", "controllers.csv",
+                                    "report.html",      kResults,
+                                    "results.jsonl",    kRounds,
+                                    kMeasured,          kJobs,
                                     kAttempts};
 
 // study.json; null when it does not exist or is not a study.

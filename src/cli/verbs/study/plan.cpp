@@ -17,10 +17,11 @@ std::string verb_of(const std::filesystem::path& study) {
   const Document d = read_toml(study);
   const auto kind = file_kind(Node(d));
   if (kind == FileKind::identify_study) return "identify";
+  if (kind == FileKind::calibration_study) return "calibrate";
   if (kind == FileKind::controller_study) return "compare-controllers";
   throw Error(Errc::usage, study.string(),
-              "is not a study of simulations; it must be a study for `faba identify` or `faba "
-              "compare-controllers`");
+              "is not a study of simulations; it must be a file for `faba identify`, `faba "
+              "calibrate` or `faba compare-controllers`");
 }
 
 int study_plan(const StudyOptions& v, const Common& c) {
@@ -60,7 +61,8 @@ void add_study_plan(CLI::App& study, CommandLine& line) {
                      "  faba study plan study.toml --out runs/mine\n"
                      "  faba study work runs/mine --tasks 1-100 --results runs/mine/results/a.results\n"
                      "  faba study collect runs/mine");
-  v->add_option("study", o->study, "Study file (TOML) of identify or compare-controllers")->required();
+  v->add_option("study", o->study, "Study file (TOML) of identify, calibrate or compare-controllers")
+      ->required();
   v->add_option("-o,--out", o->out, "Directory of the study; default: runs/NAME")->check(not_empty);
   v->add_flag("--force", o->force, "Replace another study in the directory");
   v->callback([o, &line] { line.code = study_plan(*o, line.common); });
