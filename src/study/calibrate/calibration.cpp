@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/random/distributions.h"
+#include "study/calibrate/true_experiment.h"
 #include "study/identify/response/measured_response.h"
 #include "study/stats/statistics.h"
 
@@ -18,6 +19,7 @@ using Design = std::vector<ResponseVideo>;
 Round experiments_of(const CalibrationStudy& study, Design videos, const std::function<bool()>& stop) {
   for (ResponseVideo& v : videos)
     for (auto& pictures : v.pictures) pictures.clear();  // each experiment copies the videos
+  check_kinds(study, videos);
   const auto design = std::make_shared<const Design>(std::move(videos));
   Round round;
   round.description = "calibration 1";

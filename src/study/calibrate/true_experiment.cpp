@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/scenario/parts.h"
+#include "app/scenario/read_scenario.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "study/calibrate/rendered_experiment.h"
@@ -97,6 +99,20 @@ VectorXd sampled_prior(const Candidate& c, StudyRandom& random) {
     while (std::log(random.uniform()) > c.free[j].log_prior(u[Index(j)]));
   }
   return u;
+}
+
+void check_kinds(const CalibrationStudy& study, const std::vector<ResponseVideo>& design) {
+  const ResponseVideo& v = design.front();
+  for (const ExperimentKind& kind : study.kinds)
+    for (const std::size_t model : kind.true_models) {
+      const Candidate& c = study.design.candidates[model];
+      const ModelFamily difference = difference_of(kind);
+      const VectorXd middle = VectorXd::Constant(Index(c.free.size()), 0.5);
+      for (std::size_t j = 0; j < c.free.size(); ++j) (void)true_value(c.free[j], 0.5, kind);
+      const SampledEpisode sampled =
+          sampled_episode(study.design, c, v, v.episodes.front(), middle, {1, 1}, &difference);
+      (void)read_scenario(sampled.scenario, builtin_parts());
+    }
 }
 
 TrueExperiment true_experiment(const CalibrationStudy& study, const std::vector<ResponseVideo>& design,

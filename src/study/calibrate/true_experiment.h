@@ -24,6 +24,9 @@ std::uint64_t experiment_seed(const CalibrationStudy& study, std::uint64_t exper
 /// Parameters of a candidate sampled from its prior, as fractions of their ranges.
 Eigen::VectorXd sampled_prior(const Candidate& c, StudyRandom& random);
 
+/// Checks the scenarios of all kinds of experiments. Throws Error(usage), for example for unknown paths.
+void check_kinds(const CalibrationStudy& study, const std::vector<ResponseVideo>& design);
+
 /// Simulates an experiment of the study with parameters from the prior, and measures it. Parameters that are
 /// not compatible, and experiments without cells in view, are sampled again. `tick` is called after each
 /// frame that is read. Throws Error(input) when no experiment can be measured.
