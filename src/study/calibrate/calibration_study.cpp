@@ -51,6 +51,7 @@ struct MisspecifiedFile {
   std::optional<int> experiments;
   std::vector<std::string> true_models, aspects;
   double second_swarm = 0, field_factor = 1;
+  std::optional<double> timing;
   static Schema<MisspecifiedFile> schema() {
     return Schema<MisspecifiedFile>("misspecified", "Experiments that differ from what the study states")
         .add("name", &MisspecifiedFile::name, {.doc = "What differs, for reports"})
@@ -61,6 +62,11 @@ struct MisspecifiedFile {
              {.min = 0, .max = 0.9, .doc = "Fraction of the cells that become swarm[1], a copy of swarm[0]"})
         .add("field_factor", &MisspecifiedFile::field_factor,
              {.min = 0, .max = 100, .doc = "True field strength over the field strength of the study"})
+        .add("timing", &MisspecifiedFile::timing,
+             {.unit = "s",
+              .min = 0,
+              .max = 10,
+              .doc = "True standard deviation of the times of field reversals; default: as in the study"})
         .add("aspects", &MisspecifiedFile::aspects,
              {.doc = "Aspects of warnings of `faba identify` that name the difference, such as turning"});
   }
@@ -95,16 +101,17 @@ ExperimentKind misspecified_kind(const Node& n, const CalibrationStudy& study, c
                                       : named(f.true_models, study.design, n, "true_models"),
                    .second_swarm = f.second_swarm,
                    .field_factor = f.field_factor,
+                   .timing_s = f.timing,
                    .aspects = f.aspects,
                    .misspecified = true};
   if (n.has("set")) {
     if (!n.child("set").json->is_object()) n.child("set").fail("must be a table of paths and values");
     for (const auto& [path, value] : n.child("set").json->items()) k.set.emplace_back(path, value);
   }
-  if (k.set.empty() && k.second_swarm == 0 && k.field_factor == 1)
+  if (k.set.empty() && k.second_swarm == 0 && k.field_factor == 1 && !k.timing_s)
     n.fail(
-        "nothing differs; give set = { \"swarm[0].model.tumble_rate\" = \"2 1/s\" }, second_swarm or "
-        "field_factor");
+        "nothing differs; give set = { \"swarm[0].model.tumble_rate\" = \"2 1/s\" }, second_swarm, "
+        "field_factor or timing");
   return k;
 }
 
@@ -204,6 +211,7 @@ std::string study_hash(const CalibrationStudy& study) {
     for (const std::size_t m : k.true_models) h.value(m);
     h.value(k.second_swarm);
     h.value(k.field_factor);
+    if (k.timing_s) h.value(*k.timing_s);
     for (const auto& [path, value] : k.set) {
       h.text(path);
       h.text(value.dump());

@@ -16,6 +16,7 @@ struct ExperimentKind {
   std::vector<std::size_t> true_models;
   double second_swarm = 0;                             ///< fraction of the cells that become swarm[1]
   double field_factor = 1;                             ///< true over stated field strength
+  std::optional<double> timing_s = {};                 ///< true s.d. of the times of field reversals, s
   std::vector<std::pair<std::string, Json>> set = {};  ///< values of the true scenario, by path
   std::vector<std::string> aspects = {};               ///< of warnings that name the difference
   bool misspecified = false;

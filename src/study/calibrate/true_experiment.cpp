@@ -123,6 +123,8 @@ TrueExperiment true_experiment(const CalibrationStudy& study, const std::vector<
   t.model = kind.true_models[number % kind.true_models.size()];
   const Candidate& c = study.design.candidates[t.model];
   const ModelFamily difference = difference_of(kind);
+  IdentifyStudy truth = study.design;
+  if (kind.timing_s) truth.timing_s = kind.timing_s;
   StudyRandom random(experiment_seed(study, experiment, ExperimentSeed::truth), StudyDraws::truth);
   const std::uint64_t seed = experiment_seed(study, experiment, ExperimentSeed::simulation);
   for (std::uint64_t i = 0; i < kMostSamples; ++i) {
@@ -133,8 +135,8 @@ TrueExperiment true_experiment(const CalibrationStudy& study, const std::vector<
       t.truth.push_back(true_value(c.free[j], u[Index(j)], kind));
     try {
       t.videos = study.design.look == Look::video
-                     ? rendered_experiment(study.design, c, design, u, seed + (i << 20), difference, tick)
-                     : observed_positions(study.design, c, design, u, seed + (i << 20), difference);
+                     ? rendered_experiment(truth, c, design, u, seed + (i << 20), difference, tick)
+                     : observed_positions(truth, c, design, u, seed + (i << 20), difference);
     } catch (const Error& e) {
       if (e.code() != Errc::usage && e.code() != Errc::input) throw;
       continue;

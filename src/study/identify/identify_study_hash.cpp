@@ -113,4 +113,11 @@ std::string study_hash(const IdentifyStudy& study) {
   return h.hex();
 }
 
+std::string design_hash(const IdentifyStudy& study) {
+  IdentifyStudy design = study;
+  design.seed = 0;
+  for (Candidate& c : design.candidates) c.legacy_values.clear();
+  return study_hash(design);
+}
+
 }  // namespace faba

@@ -87,6 +87,7 @@ Json experiment_json(const StudyCalibration& c, std::size_t i) {
 nlohmann::ordered_json calibration_json(const StudyCalibration& c) {
   Json j{{"title", c.study.title},
          {"study", c.study.designed_by},
+         {"design_hash", design_hash(c.study.design)},
          {"seed", c.study.seed},
          {"look", c.study.design.look == Look::video ? "video" : "positions"},
          {"simulations", c.study.design.simulations},

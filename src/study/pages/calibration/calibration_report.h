@@ -12,4 +12,8 @@ namespace faba {
 nlohmann::ordered_json calibration_json(const StudyCalibration& c);
 std::string calibration_page(const StudyCalibration& c, const Provenance& provenance);
 
+/// For the page of `identify`: the calibration of the study that its key `calibration` names, or a warning
+/// that there is none.
+std::string calibration_note(const IdentifyStudy& study);
+
 }  // namespace faba
