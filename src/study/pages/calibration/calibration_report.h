@@ -13,7 +13,7 @@ nlohmann::ordered_json calibration_json(const StudyCalibration& c);
 std::string calibration_page(const StudyCalibration& c, const Provenance& provenance);
 
 /// For the page of `identify`: the calibration of the study that its key `calibration` names, or a warning
-/// that there is none.
+/// that the study is not calibrated.
 std::string calibration_note(const IdentifyStudy& study);
 
 }  // namespace faba
