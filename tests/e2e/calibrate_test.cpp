@@ -104,6 +104,25 @@ TEST_CASE("calibrate: two candidates, misspecified and rendered experiments") {
   CHECK(table.json()["tasks"] == 3);
 }
 
+TEST_CASE("the page of identify shows the calibration of its study, and warns of a missing one") {
+  const TestFolder f;
+  make_design(f);
+  write_file(f.path / "calibration.toml", "study = \"study.toml\"\nexperiments = 2\n");
+  REQUIRE(faba_in(f.path, "calibrate calibration.toml --quiet --out calibrated").exit == 0);
+  const auto page = [&](const std::string& more) {
+    write_file(f.path / "more.toml", more + kDesign);
+    const Called c = faba_in(f.path, "identify more.toml --quiet --force --out out");
+    REQUIRE_MESSAGE(c.exit == 0, c.err);
+    return read_file(f.path / "out/identify.html");
+  };
+  const std::string key = "calibration = \"calibrated/calibration.json\"\n";
+  CHECK(page(key).find("Calibration of this study") != std::string::npos);
+  CHECK(page(key + "seed = 7\n").find("Calibration of this study") != std::string::npos);
+  CHECK(page(key + "timing = \"0 s\"\n").find("is of another design") != std::string::npos);
+  CHECK(page("").find("are not calibrated") != std::string::npos);
+  CHECK(page("calibration = \"none.json\"\n").find("none.json does not exist") != std::string::npos);
+}
+
 TEST_CASE("calibrate: invalid files are refused before the videos are read") {
   const TestFolder f;
   make_design(f);
