@@ -80,7 +80,8 @@ WITHIN = {
         "steering": "data stats sweep",
         "coils": "plot quality",
         "identify": "data stats sweep tracks motion quality",
-        "pages": "data stats quality sweep plot scale drop flow tracks motion uturn steering coils identify",
+        "calibrate": "stats sweep quality identify",
+        "pages": "data stats quality sweep plot scale drop flow tracks motion uturn steering coils identify calibrate",
     },
 }
 # Folders whose results are structs; study/pages, cli and server convert them to JSON. Files that use JSON for another

@@ -40,11 +40,11 @@ OTHER_MEANINGS = (
     ("mean", "the average, as a JSON key, a parameter or a heading",
      "src/app/bench/bench_view.cpp src/cli/verbs/compare.cpp src/study/identify/free_parameter.cpp "
      "src/study/pages/compare_report.cpp src/study/pages/controller_report.cpp src/study/pages/identify_report.cpp "
-     "src/study/pages/tracks/track_json.cpp"),
+     "src/study/pages/tracks/track_json.cpp src/study/pages/calibration/calibration_json.cpp"),
     ("none", "no defect", "src/rig/setup/amplifier.cpp"),
     ("none", "no fault of the guard", "src/rig/setup/coil_guard.cpp"),
     ("none", "no exclusion", "src/sim/exclusion.cpp"),
-    ("none", "no evidence", "src/study/identify/evidence.cpp"),
+    ("none", "no evidence", "src/study/identify/evidence.cpp src/study/pages/calibration/calibration_json.cpp"),
     ("none", "a value of boundary", "src/study/identify/identify_study.cpp"),
     ("none", "an option of FFmpeg",
      "src/vision/files/av_stream.cpp src/vision/files/frame_encoder.cpp src/vision/files/remux.cpp"),

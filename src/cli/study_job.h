@@ -36,6 +36,7 @@ class StudyJob {
 /// The job of a study. `needs_inputs`: false for a worker, which does not read the videos. Throws the errors
 /// of reading the study.
 std::unique_ptr<StudyJob> identify_job(const StudySource& source, bool needs_inputs);
+std::unique_ptr<StudyJob> calibrate_job(const StudySource& source, bool needs_inputs);
 std::unique_ptr<StudyJob> controllers_job(const StudySource& source);
 std::unique_ptr<StudyJob> track_job(const StudySource& source);
 std::unique_ptr<StudyJob> activity_job(const StudySource& source);

@@ -21,6 +21,7 @@ namespace faba::cli {
   X(rig)                 \
   X(compare_controllers) \
   X(identify)            \
+  X(calibrate)           \
   X(study)               \
   X(parts)               \
   X(schema)              \

@@ -13,7 +13,8 @@ constexpr std::array kMessages = {
     "is a study for `faba identify`",
     "is a study for `faba activity`",
     "is a study for `faba compare-controllers`",
-    "is a study for `faba moment`"};
+    "is a study for `faba moment`",
+    "is a file for `faba calibrate`"};
 
 }  // namespace
 
@@ -22,6 +23,7 @@ std::optional<FileKind> file_kind(const Node& root) {
   if (is_list("swarm")) return FileKind::scenario;
   if (is_list("coil")) return FileKind::coil_system;
   if (root.has("scene") && root.child("scene").json->is_string()) return FileKind::controller_study;
+  if (root.has("study") && root.child("study").json->is_string()) return FileKind::calibration_study;
   if (is_list("video") && !root.child("video").json->empty() &&
       root.child("video").item(0).json->is_object() && root.child("video").item(0).has("reversals"))
     return FileKind::moment_study;

@@ -6,7 +6,15 @@
 namespace faba {
 
 /// Kinds of TOML files that users write.
-enum class FileKind { scenario, coil_system, identify_study, activity_study, controller_study, moment_study };
+enum class FileKind {
+  scenario,
+  coil_system,
+  identify_study,
+  activity_study,
+  controller_study,
+  moment_study,
+  calibration_study
+};
 
 /// The kind that the keys of a document show; empty when they show none.
 std::optional<FileKind> file_kind(const Node& root);

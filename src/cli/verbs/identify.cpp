@@ -93,7 +93,7 @@ class IdentifyJob final : public StudyJob {
     if (needs_videos)
       digest_videos(study_);
     else
-      take_digests();
+      take_digests(study_, source_.inputs);
     source_.inputs.clear();
     for (const ResponseInput& video : study_.videos) source_.inputs.push_back(video.digest);
     hash_ = study_hash(study_);
@@ -139,14 +139,6 @@ class IdentifyJob final : public StudyJob {
   }
 
  private:
-  void take_digests() {
-    if (source_.inputs.size() != study_.videos.size())
-      throw Error(Errc::usage, source_.file.string(),
-                  fmt::format("has {} videos, but the study was planned with {}", study_.videos.size(),
-                              source_.inputs.size()));
-    for (std::size_t v = 0; v < study_.videos.size(); ++v) study_.videos[v].digest = source_.inputs[v];
-  }
-
   StudySource source_;
   IdentifyStudy study_;
   std::string hash_;

@@ -6,6 +6,7 @@
 #include "app/scenario/scenario_schema.h"
 #include "app/sinks/series_columns.h"
 #include "cli/command_line.h"
+#include "study/calibrate/calibration_study.h"
 #include "study/engines/engine_settings.h"
 #include "study/identify/identify.h"
 #include "study/motion/activity_study.h"
@@ -36,6 +37,7 @@ int schema(const std::string& file, const Common& c) {
   const Parts& parts = builtin_parts();
   const Json j = file == "rig"                   ? rig_file_json_schema(parts)
                  : file == "identify"            ? identify_study_schema()
+                 : file == "calibrate"           ? calibration_study_schema()
                  : file == "compare-controllers" ? controller_study_schema()
                  : file == "activity"            ? activity_study_schema()
                  : file == "moment"              ? moment_study_schema()
@@ -56,8 +58,8 @@ void add_schema(CLI::App& app, CommandLine& line) {
        "kind", *of,
        "Kind of file: scenario (default), rig or engine; the verb that reads the study file; or series, "
        "which lists the columns of series.csv")
-      ->check(one_of(
-          {"scenario", "rig", "identify", "compare-controllers", "activity", "moment", "engine", "series"}));
+      ->check(one_of({"scenario", "rig", "identify", "calibrate", "compare-controllers", "activity", "moment",
+                      "engine", "series"}));
   v->callback([of, &line] { line.code = schema(*of, line.common); });
 }
 

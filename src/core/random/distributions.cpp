@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <boost/math/distributions/beta.hpp>
+#include <boost/math/distributions/binomial.hpp>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
@@ -25,6 +28,34 @@ double student_t_quantile(double p, double freedom) {
         Errc::internal, "student_t_quantile",
         fmt::format("p is {} and must be between 0 and 1; freedom is {} and must be positive", p, freedom));
   return boost::math::quantile(boost::math::students_t(freedom), p);
+}
+
+double binomial_cdf(int k, int n, double p) {
+  if (k < 0) return 0;
+  if (k >= n) return 1;
+  return boost::math::cdf(boost::math::binomial(n, p), k);
+}
+
+BinomialRange binomial_range(int n, double p, double level) {
+  const double tail = (1 - level) / 2;
+  BinomialRange r{0, n};
+  while (r.low < n && binomial_cdf(r.low, n, p) <= tail) ++r.low;
+  while (r.high > 0 && 1 - binomial_cdf(r.high - 1, n, p) <= tail) --r.high;
+  return r;
+}
+
+FractionInterval binomial_interval(int k, int n, double level) {
+  if (n < 1 || k < 0 || k > n || !(level > 0 && level < 1))
+    throw Error(Errc::internal, "binomial_interval", fmt::format("{} of {}, level {}", k, n, level));
+  const double tail = (1 - level) / 2;
+  FractionInterval i;
+  if (k > 0) i.low = boost::math::quantile(boost::math::beta_distribution<>(k, n - k + 1), tail);
+  if (k < n) i.high = boost::math::quantile(boost::math::beta_distribution<>(k + 1, n - k), 1 - tail);
+  return i;
+}
+
+double chi_square_tail(double x, double freedom) {
+  return boost::math::cdf(boost::math::complement(boost::math::chi_squared(freedom), x));
 }
 
 }  // namespace faba

@@ -12,6 +12,7 @@
 #include "study/identify/families/family_checks.h"
 #include "study/identify/legacy_selection.h"
 #include "study/identify/response/measured_response.h"
+#include "study/identify/sampled_episode.h"
 #include "study/identify/simulation_round.h"
 #include "study/identify/u_turn.h"
 
@@ -168,11 +169,11 @@ std::vector<SearchedModel> find_models(Identification& r, const std::vector<Cand
 
 }  // namespace
 
-std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& results,
-                                       const SweepOptions& options, const std::function<void()>& reading) {
+std::optional<Identification> identify(const IdentifyStudy& study, std::vector<ResponseVideo> videos,
+                                       ResultStore& results, const SweepOptions& options) {
   Identification r;
   r.study = study;
-  r.videos = measured_responses(study, options, reading);
+  r.videos = std::move(videos);
   check_same_camera(r.videos);
   for (ResponseVideo& v : r.videos) note_field_strength(study, v);
   const ObservedStatistics o = observed_statistics(r.videos);
@@ -190,12 +191,17 @@ std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& 
   r.experiments = o.experiments;
   r.parts = o.parts_name;
   judge(r);
-  if (study.legacy) {
-    auto legacy = legacy_selection(study, r.videos, measured_references(study, r.videos, options, reading),
-                                   results, options);
-    if (!legacy) return {};
-    r.legacy = std::move(*legacy);
-  }
+  return r;
+}
+
+std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& results,
+                                       const SweepOptions& options, const std::function<void()>& reading) {
+  auto r = identify(study, measured_responses(study, options, reading), results, options);
+  if (!r || !study.legacy) return r;
+  auto legacy = legacy_selection(study, r->videos, measured_references(study, r->videos, options, reading),
+                                 results, options);
+  if (!legacy) return {};
+  r->legacy = std::move(*legacy);
   return r;
 }
 

@@ -13,4 +13,8 @@ namespace faba {
 std::optional<Identification> identify(const IdentifyStudy& study, ResultStore& results,
                                        const SweepOptions& options, const std::function<void()>& reading);
 
+/// identify() for videos that are measured already, without the rule of the thesis.
+std::optional<Identification> identify(const IdentifyStudy& study, std::vector<ResponseVideo> videos,
+                                       ResultStore& results, const SweepOptions& options);
+
 }  // namespace faba

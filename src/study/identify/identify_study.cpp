@@ -39,7 +39,7 @@ struct IdentifyFile {
   std::optional<double> scale_uncertainty;
   double field_uncertainty = 0;
   std::optional<double> um_per_px, reversal, direction, duration, timing;
-  std::string scale;
+  std::string scale, calibration;
   std::optional<double> field_strength;
   static Schema<IdentifyFile> schema() {
     return Schema<IdentifyFile>("identify", "Model selection and parameter estimation from videos")
@@ -73,6 +73,8 @@ struct IdentifyFile {
              {.min = 0,
               .max = 0.5,
               .doc = "Relative standard deviation of the field strength, which each simulation samples"})
+        .add("calibration", &IdentifyFile::calibration,
+             {.doc = "Result of `faba calibrate` for this study, calibration.json, which the page shows"})
         .add("um_per_px", &IdentifyFile::um_per_px, {.min = 1e-3, .max = 1e3, .doc = "Micrometres per pixel"})
         .add("scale", &IdentifyFile::scale, {.doc = "Calibration file of `faba scale`, instead of um_per_px"})
         .add("reversal", &IdentifyFile::reversal,
@@ -291,6 +293,7 @@ IdentifyStudy read_identify_study(const std::filesystem::path& file, bool needs_
   study.measure = f.measure.value_or(f.boundary == Boundary::none ? Measure::tracks : Measure::density);
   study.timing_s = f.timing;
   study.legacy = f.legacy;
+  if (!f.calibration.empty()) study.calibration = root.file(f.calibration);
   study.scale_sd = f.scale_uncertainty.value_or(0);
   study.field_sd = f.field_uncertainty;
   study.count_sd = f.nuisances ? kCountUncertainty : 0;

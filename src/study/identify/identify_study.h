@@ -36,8 +36,9 @@ struct IdentifyStudy {
   Boundary boundary = Boundary::drop;
   Look look = Look::video;
   Measure measure = Measure::density;
-  int simulations = 600;  ///< per episode and candidate
-  bool legacy = false;    ///< apply the rule of the thesis as well
+  int simulations = 600;                   ///< per episode and candidate
+  bool legacy = false;                     ///< apply the rule of the thesis as well
+  std::filesystem::path calibration = {};  ///< calibration.json of this study; may not exist; empty: none
   /// Standard deviation of the times of field reversals, s. Empty: 0.58 frames, or 1.5 frames for segments
   /// that are detected in the video.
   std::optional<double> timing_s;
@@ -56,8 +57,12 @@ Json identify_study_schema();
 /// Sets the digest of each video. It depends on the content and not on the path: a different video under the
 /// same name is a different study, and a study under another mount point is the same.
 void digest_videos(IdentifyStudy& study);
+/// Sets the digests that another process computed. Throws Error(usage) if their number is wrong.
+void take_digests(IdentifyStudy& study, const std::vector<std::string>& digests);
 /// Hash of everything that the result depends on, with the digests of the videos.
 std::string study_hash(const IdentifyStudy& study);
+/// study_hash() without the seed: the design that a calibration tests.
+std::string design_hash(const IdentifyStudy& study);
 /// Hash of everything that the measurement of a video depends on.
 std::string measurement_key(const IdentifyStudy& study, std::size_t video);
 

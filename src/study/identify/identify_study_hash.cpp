@@ -1,6 +1,9 @@
+#include <fmt/format.h>
+
 #include <fstream>
 #include <set>
 
+#include "core/error.h"
 #include "core/hash.h"
 #include "study/data/run_video.h"
 #include "study/identify/identify_study.h"
@@ -57,6 +60,14 @@ void digest_videos(IdentifyStudy& study) {
   }
 }
 
+void take_digests(IdentifyStudy& study, const std::vector<std::string>& digests) {
+  if (digests.size() != study.videos.size())
+    throw Error(
+        Errc::usage, study.title,
+        fmt::format("has {} videos, but the study was planned with {}", study.videos.size(), digests.size()));
+  for (std::size_t v = 0; v < study.videos.size(); ++v) study.videos[v].digest = digests[v];
+}
+
 std::string measurement_key(const IdentifyStudy& study, std::size_t video) {
   const ResponseInput& v = study.videos[video];
   Hash h;
@@ -100,6 +111,13 @@ std::string study_hash(const IdentifyStudy& study) {
     }
   }
   return h.hex();
+}
+
+std::string design_hash(const IdentifyStudy& study) {
+  IdentifyStudy design = study;
+  design.seed = 0;
+  for (Candidate& c : design.candidates) c.legacy_values.clear();
+  return study_hash(design);
 }
 
 }  // namespace faba

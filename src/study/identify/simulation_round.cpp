@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/scenario/parts.h"
-#include "app/scenario/read_scenario.h"
 #include "core/archive.h"
 #include "core/error.h"
 #include "core/hash.h"
+#include "study/identify/sampled_episode.h"
 
 namespace faba {
 namespace {
@@ -17,11 +16,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// Standard deviation of the time of a field reversal, frames: given to within one frame (uniform), and
-// detected from the path of the swarm.
-constexpr double kTimingGiven = 0.58, kTimingDetected = 1.5;
-constexpr double kLargestError = 2.5;  // sd
 
 std::string observed_digest(const ObservedStatistics& o) {
   Hash h;
@@ -37,45 +31,13 @@ void archive_matrix(Archive& a, MatrixXd& m) {
   if (a.reading()) m = Eigen::Map<const MatrixXd>(elements.data(), rows, columns);
 }
 
-// Factor of a quantity with a relative uncertainty.
-double factor(StudyRandom& random, double relative_sd) {
-  const double z = std::clamp(random.normal(), -kLargestError, kLargestError);
-  return std::exp(relative_sd * z);
-}
-
-bool given(const Candidate& c, const std::string& path) {
-  return std::any_of(c.free.begin(), c.free.end(), [&](const auto& p) { return p.path == path; }) ||
-         std::any_of(c.model.set.begin(), c.model.set.end(), [&](const auto& s) { return s.first == path; });
-}
-
-void scale_counts(Document& d, const Candidate& c, double times) {
-  Json& swarms = d.root["swarm"];
-  for (std::size_t i = 0; i < swarms.size(); ++i)
-    if (!given(c, fmt::format("swarm[{}].count", i)))
-      swarms[i]["count"] = std::max<std::int64_t>(1, std::llround(times * swarms[i]["count"].get<double>()));
-}
-
 std::uint64_t seed_of(std::initializer_list<std::uint64_t> values) {
   Hash h;
   for (const std::uint64_t x : values) h.value(x);
   return h.result() >> 1;
 }
 
-EpisodeSettings settings_of(const IdentifyStudy& study, const Candidate& c, const ResponseVideo& v) {
-  return {study.boundary, study.scene, c.model, c.field_strength_in(v)};
-}
-
-Document with_parameters(Document d, const Candidate& c, const VectorXd& u) {
-  for (std::size_t j = 0; j < c.free.size(); ++j) d.set(c.free[j].path, c.free[j].json(u[Index(j)]), "free");
-  return d;
-}
-
 }  // namespace
-
-Document candidate_scenario(const IdentifyStudy& study, const Candidate& c, const ResponseVideo& v,
-                            const Episode& e, const VectorXd& u, const SegmentTiming& timing) {
-  return with_parameters(episode_scenario(v, e, settings_of(study, c, v), timing), c, u);
-}
 
 std::vector<ModelFamily> families_at(const IdentifyStudy& study, const std::vector<ResponseVideo>& videos,
                                      const Candidate& c, const VectorXd& at) {
@@ -152,33 +114,12 @@ std::vector<double> SimulationRound::simulate(std::uint64_t task) const {
   const ObservedStatistics::Part& part = observed_.parts[p];
   const ResponseVideo& video = videos_[part.video];
   const Episode& episode = video.episodes[part.episode];
-  // Independent seed for each simulation.
-  const std::uint64_t seed = seed_of({study_.seed, block.candidate, block.number, i, p});
-  // Scale and field are those of the camera and the coils: the same in all episodes of a simulation.
-  StudyRandom common(seed_of({study_.seed, block.candidate, block.number, i}), StudyDraws::apparatus),
-      own(seed, StudyDraws::apparatus);
-  EpisodeSettings settings = settings_of(study_, c, video);
-  settings.scale_factor = factor(common, study_.scale_sd);
-  settings.field_strength_t *= factor(common, study_.field_sd);
-  const double timing_sd = (video.segments_detected ? kTimingDetected : kTimingGiven) / video.fps;
-  SegmentTiming timing = random_timing(episode, study_.timing_s.value_or(timing_sd), seed);
-  if (block.family) {
-    settings.field_strength_t *= block.family->field_factor;
-    for (double& start : timing.starts_s) start += block.family->delay_frames / video.fps;
-  }
-  Document scenario = with_parameters(episode_scenario(video, episode, settings, timing), c,
-                                      block.u.row(Index(i)).transpose());
-  scale_counts(scenario, c, factor(own, study_.count_sd));
-  if (block.family && block.family->edit) block.family->edit(scenario);
+  const EpisodeSeeds seeds{seed_of({study_.seed, block.candidate, block.number, i}),
+                           seed_of({study_.seed, block.candidate, block.number, i, p})};
+  const SampledEpisode sampled = sampled_episode(study_, c, video, episode, block.u.row(Index(i)).transpose(),
+                                                 seeds, block.family ? &*block.family : nullptr);
   try {
-    const EpisodeObservation seen =
-        simulate_episode(read_scenario(scenario, builtin_parts()), seed, timing.lead_s,
-                         part.statistics->times_s(), study_.look, video.ground);
-    std::vector<double> numbers = study_.look == Look::video ? part.statistics->of_frames(seen.frames)
-                                                             : part.statistics->of_positions(seen.positions);
-    StudyRandom random(seed, StudyDraws::measurement);
-    part.statistics->blur(numbers, random);
-    return numbers;
+    return sampled_statistics(study_, video, *part.statistics, sampled, seeds);
   } catch (const Error& e) {
     if (e.code() != Errc::usage) throw;
     // Incompatible values, such as speeds that need too many steps.

@@ -10,10 +10,6 @@
 
 namespace faba {
 
-/// Scenario of an episode for a candidate at parameters `u`, as fractions of their ranges.
-Document candidate_scenario(const IdentifyStudy& study, const Candidate& c, const ResponseVideo& v,
-                            const Episode& e, const Eigen::VectorXd& u, const SegmentTiming& timing);
-
 /// An extension of a candidate by one of its families.
 struct FamilyChoice {
   Eigen::VectorXd at;     ///< parameters at which families_of() is evaluated, as fractions of their ranges

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "study/identify/identify_warnings.h"
+#include "study/pages/calibration/calibration_report.h"
 #include "study/pages/identify_figures.h"
 #include "study/pages/identify_report.h"
 #include "study/pages/provenance_output.h"
@@ -226,7 +227,8 @@ std::string notes(const Identification& r) {
 
 std::string identify_page(const Identification& r, const Provenance& provenance) {
   std::string out = fmt::format("<h1>{}</h1>\n", escape_markup(r.study.title)) + lead(r) +
-                    quality_markup(identify_warnings(r)) + models_table(r) + families_table(r);
+                    calibration_note(r.study) + quality_markup(identify_warnings(r)) + models_table(r) +
+                    families_table(r);
   out += "<h2>Observation and posterior prediction of the best model</h2>\n<div class=\"figures\">\n";
   for (const Figure& f : predictive_figures(r)) out += figure_markup(f);
   out += "</div>\n" + pictures(r) + "<h2>Parameters of the best model</h2>\n" + bootstrap_text(r) +

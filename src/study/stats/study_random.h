@@ -17,6 +17,8 @@ enum class StudyDraws : std::uint32_t {
   measurement = 10,     ///< measurement noise added to statistics of simulations
   apparatus = 11,       ///< errors of the stated scale, field strength and number of cells
   u_turn = 12,          ///< simulated U-turns and their resampling
+  truth = 13,           ///< true parameters of a calibration
+  reference = 14,       ///< reference points and ties of a calibration
   first_proposal = 100  ///< parameters of search round 0; round n has first_proposal + n
 };
 

@@ -113,12 +113,12 @@ void ResultStore::add(TaskId id, std::span<const double> values, double seconds)
   const std::lock_guard lock(adding_);
   const TaskResult r{id, seconds, values, {}};
   if (find(id)) return;
-  if (!own_) {
+  if (!own_ && !folder_.empty()) {
     fs::create_directories(folder_);
     own_ = std::make_unique<ResultFile>(folder_ / own_name(), study_hash_);
     files_[own_->path().filename().string()].complete = true;  // its results are known
   }
-  own_->add(r);
+  if (own_) own_->add(r);
   take(r);
 }
 

@@ -24,8 +24,8 @@ std::uint64_t round_key(const std::string& study_hash, const Round& round);
 /// per value.
 class ResultStore {
  public:
-  /// Reads all results in `folder`, which is created when the first result is added. Throws as
-  /// read_results().
+  /// Reads all results in `folder`, which is created when the first result is added. With an empty `folder`
+  /// the results are in memory only. Throws as read_results().
   ResultStore(std::filesystem::path folder, std::string study_hash);
   ~ResultStore();
 

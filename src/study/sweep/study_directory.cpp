@@ -18,6 +18,7 @@ using namespace study_files;
 // Everything that a study writes into its directory, apart from study.json and the marker.
 constexpr const char* kWritten[] = {"identify.json",    "identify.html",
                                     "best.toml",        "background.png",
+                                    "calibration.json", "calibration.html",
                                     "controllers.json", "controllers.csv",
                                     "report.html",      kResults,
                                     "results.jsonl",    "activity.json",

@@ -17,11 +17,13 @@ std::string verb_of(const std::filesystem::path& study) {
   const Document d = read_toml(study);
   const auto kind = file_kind(Node(d));
   if (kind == FileKind::identify_study) return "identify";
+  if (kind == FileKind::calibration_study) return "calibrate";
   if (kind == FileKind::controller_study) return "compare-controllers";
   if (kind == FileKind::activity_study) return "activity";
-  throw Error(Errc::usage, study.string(),
-              "is not a study that can be planned; it must be a study for `faba identify`, `faba "
-              "compare-controllers` or `faba activity`");
+  throw Error(
+      Errc::usage, study.string(),
+      "is not a study that can be planned; it must be a study for `faba identify`, `faba calibrate`, `faba "
+      "compare-controllers` or `faba activity`");
 }
 
 int study_plan(const StudyOptions& v, const Common& c) {
@@ -66,7 +68,8 @@ void add_study_plan(CLI::App& study, CommandLine& line) {
                      "  faba study plan study.toml --out runs/mine\n"
                      "  faba study work runs/mine --tasks 1-100 --results runs/mine/results/a.results\n"
                      "  faba study collect runs/mine");
-  v->add_option("study", o->study, "Study file (TOML) of identify, compare-controllers or activity")
+  v->add_option("study", o->study,
+                "Study file (TOML) of identify, calibrate, compare-controllers or activity")
       ->required();
   v->add_option("-o,--out", o->out, "Directory of the study; default: runs/NAME")->check(not_empty);
   v->add_flag("--force", o->force, "Replace another study in the directory");

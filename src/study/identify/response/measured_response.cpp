@@ -76,6 +76,17 @@ std::vector<ResponseVideo> measured_responses(const IdentifyStudy& study, const 
   return videos;
 }
 
+std::vector<ResponseVideo> stored_responses(const IdentifyStudy& study,
+                                            const std::filesystem::path& measured) {
+  std::vector<ResponseVideo> videos;
+  for (std::size_t v = 0; v < study.videos.size(); ++v) {
+    auto stored = stored_response(study, v, measured);
+    if (!stored) not_measured(measured);
+    videos.push_back(std::move(*stored));
+  }
+  return videos;
+}
+
 LegacyReferences measured_references(const IdentifyStudy& study, const std::vector<ResponseVideo>& videos,
                                      const SweepOptions& options, const std::function<void()>& reading) {
   if (auto stored = stored_references(study, options.measured)) return std::move(*stored);
@@ -92,11 +103,7 @@ Round planned_simulations(const IdentifyStudy& study, const std::filesystem::pat
                           const std::string& description) {
   const auto all = std::make_shared<PlannedSimulations>();
   all->study = study;
-  for (std::size_t v = 0; v < study.videos.size(); ++v) {
-    auto stored = stored_response(study, v, measured);
-    if (!stored) not_measured(measured);
-    all->videos.push_back(std::move(*stored));
-  }
+  all->videos = stored_responses(study, measured);
   Round round;
   if (description == kLegacyRound) {
     auto stored = stored_references(study, measured);

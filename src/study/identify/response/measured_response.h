@@ -15,6 +15,10 @@ namespace faba {
 std::vector<ResponseVideo> measured_responses(const IdentifyStudy& study, const SweepOptions& options,
                                               const std::function<void()>& reading);
 
+/// The measured videos of a study, all from the folder `measured`. Throws Error(input) when one is missing.
+std::vector<ResponseVideo> stored_responses(const IdentifyStudy& study,
+                                            const std::filesystem::path& measured);
+
 /// The references of the rule of the thesis, stored in the same way.
 LegacyReferences measured_references(const IdentifyStudy& study, const std::vector<ResponseVideo>& videos,
                                      const SweepOptions& options, const std::function<void()>& reading);
