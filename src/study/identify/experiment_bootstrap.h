@@ -18,7 +18,7 @@ std::vector<std::array<double, 2>> resampled_estimates(
 
 /// Whether the interval over resampled experiments is so much wider than that of the posterior that the
 /// experiments differ. Their positions may differ at random: a median just outside of the bootstrap interval
-/// is no evidence.
+/// does not show a difference.
 bool experiments_differ(const std::array<double, 2>& resampled90, const std::array<double, 2>& ci90);
 
 }  // namespace faba
