@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "tests/e2e/program.h"
+#include "tests/e2e/refused.h"
 
 using namespace faba;
 
@@ -30,16 +30,6 @@ void make_design(const TestFolder& f) {
   write_file(f.path / "study.toml", kDesign);
   const Called c = faba_in(f.path, "run scene.toml --seed 3 --quiet --out film");
   REQUIRE_MESSAGE(c.exit == 0, c.err);
-}
-
-void refused(const TestFolder& f, const std::string& text, int code, const std::string& words) {
-  write_file(f.path / "wrong.toml", text);
-  const Called c = faba_in(f.path, "calibrate wrong.toml --out wrong");
-  INFO(text);
-  CHECK(c.exit == code);
-  CHECK_MESSAGE(one_clear_line(c.err), c.err);
-  CHECK_MESSAGE(c.err.find(words) != std::string::npos, c.err);
-  CHECK(!std::filesystem::exists(f.path / "wrong"));
 }
 
 }  // namespace
@@ -126,13 +116,15 @@ TEST_CASE("the page of identify shows the calibration of its study, and warns of
 TEST_CASE("calibrate: invalid files are refused before the videos are read") {
   const TestFolder f;
   make_design(f);
-  refused(f, "experiments = 5\n", 2, "\"study\" is missing");
-  refused(f, "study = \"none.toml\"\n", 2, "file not found: none.toml");
-  refused(f, "study = \"scene.toml\"\n", 2, "is a scenario");
-  refused(f, "study = \"study.toml\"\nmodels = [\"dipole\"]\n", 2,
-          "unknown model \"dipole\"; the study identifies: basic, adapted");
-  refused(f, "study = \"study.toml\"\nexperiments = 0\n", 2, "no [[misspecified]]");
-  refused(f, "study = \"study.toml\"\n[[misspecified]]\nname = \"none\"\n", 2, "nothing differs");
-  refused(f, "study = \"study.toml\"\n[[misspecified]]\nfield_factor = 2\n", 2, "\"name\" is missing");
-  refused(f, kFilm, 2, "is a scenario");
+  refused_study(f, "calibrate", "experiments = 5\n", 2, "\"study\" is missing");
+  refused_study(f, "calibrate", "study = \"none.toml\"\n", 2, "file not found: none.toml");
+  refused_study(f, "calibrate", "study = \"scene.toml\"\n", 2, "is a scenario");
+  refused_study(f, "calibrate", "study = \"study.toml\"\nmodels = [\"dipole\"]\n", 2,
+                "unknown model \"dipole\"; the study identifies: basic, adapted");
+  refused_study(f, "calibrate", "study = \"study.toml\"\nexperiments = 0\n", 2, "no [[misspecified]]");
+  refused_study(f, "calibrate", "study = \"study.toml\"\n[[misspecified]]\nname = \"none\"\n", 2,
+                "nothing differs");
+  refused_study(f, "calibrate", "study = \"study.toml\"\n[[misspecified]]\nfield_factor = 2\n", 2,
+                "\"name\" is missing");
+  refused_study(f, "calibrate", kFilm, 2, "is a scenario");
 }

@@ -5,22 +5,13 @@
 #include <cmath>
 
 #include "app/files/library_file.h"
-#include "tests/e2e/program.h"
+#include "tests/e2e/refused.h"
 
 using namespace faba;
 
 namespace {
 
 const std::string kRigs = FABA_SCENES "/../rigs/";
-
-void refused(const TestFolder& f, const std::string& command, int exit, const std::string& message) {
-  const Called c = faba_in(f.path, command);
-  INFO(command, ": ", c.err);
-  CHECK(c.exit == exit);
-  CHECK(one_clear_line(c.err));
-  CHECK(c.err.find(message) != std::string::npos);
-  CHECK(c.out.empty());
-}
 
 }  // namespace
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <string>
 
-#include "tests/e2e/program.h"
+#include "tests/e2e/refused.h"
 #include "vision/files/picture.h"
 #include "vision/files/video_reader.h"
 
@@ -39,16 +39,6 @@ void make_film(const TestFolder& f, const std::string& more = "") {
 
 std::filesystem::path only_file_in(const std::filesystem::path& folder) {
   return std::filesystem::directory_iterator(folder)->path();
-}
-
-void refused(const TestFolder& f, const std::string& study, int code, const std::string& words) {
-  write_file(f.path / "study.toml", study);
-  const Called c = faba_in(f.path, "identify study.toml --out out");
-  INFO(study);
-  CHECK(c.exit == code);
-  CHECK_MESSAGE(one_clear_line(c.err), c.err);
-  CHECK_MESSAGE(c.err.find(words) != std::string::npos, c.err);
-  CHECK(!std::filesystem::exists(f.path / "out"));
 }
 
 }  // namespace
@@ -263,58 +253,69 @@ TEST_CASE("a different video with the same name is a different study; damaged re
 TEST_CASE("invalid studies and videos: one line, before any simulation") {
   const TestFolder f;
   make_film(f);
-  refused(f, kHead, 2, "[[model]]");
-  refused(f, kHead + "[[model]]\ntype = \"basic\"\n", 2, "no free parameters");
-  refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = []\n", 2, "no free parameters");
-  refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = [\"swarm[0].model.max_sped\"]\n", 2,
-          "did you mean \"max_speed\"");
-  refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = [\"swarm[4].model.max_speed\"]\n", 2,
-          "no such value");
-  refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = [\"swarm[0].polarity\"]\n", 2, "not a number");
-  refused(
-      f, kHead + "[[model]]\ntype = \"basic\"\nfree = { \"swarm[0].model.max_speed\" = [5, 2] }\n", 2,
+  refused_study(f, "identify", kHead, 2, "[[model]]");
+  refused_study(f, "identify", kHead + "[[model]]\ntype = \"basic\"\n", 2, "no free parameters");
+  refused_study(f, "identify", kHead + "[[model]]\ntype = \"basic\"\nfree = []\n", 2, "no free parameters");
+  refused_study(f, "identify", kHead + "[[model]]\ntype = \"basic\"\nfree = [\"swarm[0].model.max_sped\"]\n",
+                2, "did you mean \"max_speed\"");
+  refused_study(f, "identify", kHead + "[[model]]\ntype = \"basic\"\nfree = [\"swarm[4].model.max_speed\"]\n",
+                2, "no such value");
+  refused_study(f, "identify", kHead + "[[model]]\ntype = \"basic\"\nfree = [\"swarm[0].polarity\"]\n", 2,
+                "not a number");
+  refused_study(
+      f, "identify",
+      kHead + "[[model]]\ntype = \"basic\"\nfree = { \"swarm[0].model.max_speed\" = [5, 2] }\n", 2,
       "model[0].free.swarm[0].model.max_speed: must be [lowest, highest] with lowest < highest, not 5 to 2");
-  refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = { \"swarm[0].model.max_speed\" = [5, 2000] }\n", 2,
-          "must be a range");
-  refused(f,
-          kHead + "[[model]]\ntype = \"dipole\"\nfree = { \"swarm[0].model.speed\" = [\"5 s\", \"9 s\"] }\n",
-          2, "\"5 s\" is a time; expected a speed");
-  refused(f, kHead + kBasic + "legacy = [1, 5]\n", 2, "three values");
-  refused(f, kHead + kBasic + "legacy = [1, 5, 40]\n", 2, "out of range");
-  refused(f, "boundary = \"drop\"\n" + kHead.substr(kHead.find("look")) + kBasic, 3, "film");
-  refused(f, kHead + "[[video]]\nfile = \"none.avi\"\n" + kBasic, 3, "none.avi");
+  refused_study(f, "identify",
+                kHead + "[[model]]\ntype = \"basic\"\nfree = { \"swarm[0].model.max_speed\" = [5, 2000] }\n",
+                2, "must be a range");
+  refused_study(
+      f, "identify",
+      kHead + "[[model]]\ntype = \"dipole\"\nfree = { \"swarm[0].model.speed\" = [\"5 s\", \"9 s\"] }\n", 2,
+      "\"5 s\" is a time; expected a speed");
+  refused_study(f, "identify", kHead + kBasic + "legacy = [1, 5]\n", 2, "three values");
+  refused_study(f, "identify", kHead + kBasic + "legacy = [1, 5, 40]\n", 2, "out of range");
+  refused_study(f, "identify", "boundary = \"drop\"\n" + kHead.substr(kHead.find("look")) + kBasic, 3,
+                "film");
+  refused_study(f, "identify", kHead + "[[video]]\nfile = \"none.avi\"\n" + kBasic, 3, "none.avi");
   std::filesystem::copy_file(f.path / "film/video.avi",
                              f.path / "plain.avi");  // without the scale of the run
-  refused(f, kHead + "[[video]]\nfile = \"plain.avi\"\n" + kBasic, 3,
-          "video[1]: picture scale of plain.avi unknown; set um_per_px of this [[video]], or scale = ");
-  refused(f, kHead + "[[video]]\nfile = \"./film\"\n" + kBasic, 2, "duplicate video");
-  refused(f,
-          kHead +
-              "[[video.segment]]\nfrom = \"1 s\"\nto = \"2 s\"\n[[video.segment]]\nfrom = \"1.5 s\"\nto = "
-              "\"3 s\"\n" +
-              kBasic,
-          2, "before segment[");
-  refused(f, kHead + "reversal = \"1 s\"\n[[video.segment]]\nfrom = \"1 s\"\nto = \"2 s\"\n" + kBasic, 2,
-          "only one of the two");
-  refused(f, kHead + kBasic + "[scene]\ncamera = { rate = \"60 Hz\" }\n", 2, "taken from the video");
-  refused(f, kHead + "[[model]]\ntype = \"bassic\"\nfree = { \"swarm[0].model.max_speed\" = [1, 12] }\n", 2,
-          "did you mean \"basic\"");
+  refused_study(f, "identify", kHead + "[[video]]\nfile = \"plain.avi\"\n" + kBasic, 3,
+                "video[1]: picture scale of plain.avi unknown; set um_per_px of this [[video]], or scale = ");
+  refused_study(f, "identify", kHead + "[[video]]\nfile = \"./film\"\n" + kBasic, 2, "duplicate video");
+  refused_study(
+      f, "identify",
+      kHead +
+          "[[video.segment]]\nfrom = \"1 s\"\nto = \"2 s\"\n[[video.segment]]\nfrom = \"1.5 s\"\nto = "
+          "\"3 s\"\n" +
+          kBasic,
+      2, "before segment[");
+  refused_study(f, "identify",
+                kHead + "reversal = \"1 s\"\n[[video.segment]]\nfrom = \"1 s\"\nto = \"2 s\"\n" + kBasic, 2,
+                "only one of the two");
+  refused_study(f, "identify", kHead + kBasic + "[scene]\ncamera = { rate = \"60 Hz\" }\n", 2,
+                "taken from the video");
+  refused_study(f, "identify",
+                kHead + "[[model]]\ntype = \"bassic\"\nfree = { \"swarm[0].model.max_speed\" = [1, 12] }\n",
+                2, "did you mean \"basic\"");
   for (const char* path : {"camera.rate", "duration", "seed", "arena.size_px"})
-    refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = { \"" + path + "\" = [1, 12] }\n", 2,
-            "decides it");
+    refused_study(f, "identify",
+                  kHead + "[[model]]\ntype = \"basic\"\nfree = { \"" + path + "\" = [1, 12] }\n", 2,
+                  "decides it");
   for (const char* given : {"true", "false"})
-    refused(f, kHead + "[[model]]\ntype = \"basic\"\nfree = { \"swarm[0].count\" = " + given + " }\n", 2,
-            "swarm[0].count");
-  refused(f, kHead + "[[model]]\ntype = \"dipole\"\nfree = [\"swarm[0].model.speed\"]\n", 2,
-          "narrower ranges");
+    refused_study(f, "identify",
+                  kHead + "[[model]]\ntype = \"basic\"\nfree = { \"swarm[0].count\" = " + given + " }\n", 2,
+                  "swarm[0].count");
+  refused_study(f, "identify", kHead + "[[model]]\ntype = \"dipole\"\nfree = [\"swarm[0].model.speed\"]\n", 2,
+                "narrower ranges");
   // Videos with different rates and sizes, and a video without motion.
   std::filesystem::rename(f.path / "film", f.path / "slow");
   make_film(f, "--set camera.rate='10 Hz'");
-  refused(f, kHead + "[[video]]\nfile = \"slow\"\n" + kBasic, 3, "one rate");
+  refused_study(f, "identify", kHead + "[[video]]\nfile = \"slow\"\n" + kBasic, 3, "one rate");
   make_film(f, "--set arena.size_px='[200, 120]'");
-  refused(f, kHead + "[[video]]\nfile = \"slow\"\n" + kBasic, 3, "one camera");
+  refused_study(f, "identify", kHead + "[[video]]\nfile = \"slow\"\n" + kBasic, 3, "one camera");
   make_film(f,
             "--set swarm[0].model.type=dipole --set swarm[0].model='{type=\"dipole\", speed=0, speed_sd=0, "
             "temperature=1}'");
-  refused(f, kHead + kBasic, 3, "no cells");
+  refused_study(f, "identify", kHead + kBasic, 3, "no cells");
 }

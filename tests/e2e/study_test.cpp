@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/e2e/program.h"
+#include "tests/e2e/refused.h"
 
 using namespace faba;
 
@@ -26,17 +26,6 @@ const std::string kStudy =
 void write_study(const TestFolder& f, const std::string& study = kStudy) {
   write_file(f.path / "scene.toml", kScene);
   write_file(f.path / "study.toml", study);
-}
-
-void refused(const std::string& study, const std::string& words) {
-  const TestFolder f;
-  write_study(f, study);
-  const Called c = faba_in(f.path, "compare-controllers study.toml --out out");
-  INFO(study);
-  CHECK(c.exit == 2);
-  CHECK(one_clear_line(c.err));
-  CHECK_MESSAGE(c.err.find(words) != std::string::npos, c.err);
-  CHECK_FALSE(std::filesystem::exists(f.path / "out"));
 }
 
 std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder) {
@@ -124,25 +113,28 @@ TEST_CASE("a study is resumed and not overwritten") {
 }
 
 TEST_CASE("invalid studies: one line with place and reason, before anything is written") {
-  refused("seeds = 3\n", "scene");
-  refused("scene = \"none.toml\"\n",
-          "study.toml:1: scene: file not found: none.toml (relative to the study file)");
-  refused("scene = \"scene.toml\"\nsseds = 3\n", "did you mean \"seeds\"");
-  refused("scene = \"scene.toml\"\n[[controller]]\ntype = \"fuzy\"\n", "did you mean \"fuzzy\"");
-  refused("scene = \"scene.toml\"\n[[controller]]\nmax_output = 3\n", "type");
-  refused("scene = \"scene.toml\"\n[[controller]]\ntype = \"fuzzy\"\n[[controller]]\ntype = \"fuzzy\"\n",
-          "names must be unique");
-  refused("scene = \"scene.toml\"\n[[model]]\ntype = \"basic\"\nset = { \"swarm[3].count\" = 2 }\n",
-          "swarm[3]");
-  refused("scene = \"scene.toml\"\n[[model]]\ntype = \"basic\"\nset = { \"swarm[0].cuont\" = 2 }\n",
-          "did you mean \"count\"");
-  refused("scene = \"scene.toml\"\n[[controller]]\ntype = \"manual\"\nset = { reference = \"none\" }\n",
-          "setpoint");
-  refused("scene = \"scene.toml\"\nseeds = 1\n", "seeds");
-  refused("scene = \"scene.toml\"\ndelays = []\n",
-          "study.toml:2: delays: is an empty list; list camera delays");
   const TestFolder f;
   write_study(f);
+  const auto invalid = [&f](const std::string& study, const std::string& words) {
+    refused_study(f, "compare-controllers", study, 2, words);
+  };
+  invalid("seeds = 3\n", "scene");
+  invalid("scene = \"none.toml\"\n",
+          "refused.toml:1: scene: file not found: none.toml (relative to the study file)");
+  invalid("scene = \"scene.toml\"\nsseds = 3\n", "did you mean \"seeds\"");
+  invalid("scene = \"scene.toml\"\n[[controller]]\ntype = \"fuzy\"\n", "did you mean \"fuzzy\"");
+  invalid("scene = \"scene.toml\"\n[[controller]]\nmax_output = 3\n", "type");
+  invalid("scene = \"scene.toml\"\n[[controller]]\ntype = \"fuzzy\"\n[[controller]]\ntype = \"fuzzy\"\n",
+          "names must be unique");
+  invalid("scene = \"scene.toml\"\n[[model]]\ntype = \"basic\"\nset = { \"swarm[3].count\" = 2 }\n",
+          "swarm[3]");
+  invalid("scene = \"scene.toml\"\n[[model]]\ntype = \"basic\"\nset = { \"swarm[0].cuont\" = 2 }\n",
+          "did you mean \"count\"");
+  invalid("scene = \"scene.toml\"\n[[controller]]\ntype = \"manual\"\nset = { reference = \"none\" }\n",
+          "setpoint");
+  invalid("scene = \"scene.toml\"\nseeds = 1\n", "seeds");
+  invalid("scene = \"scene.toml\"\ndelays = []\n",
+          "refused.toml:2: delays: is an empty list; list camera delays");
   for (const char* shard : {"5/4", "0/4", "1", "a/b", "1/4x"}) {
     const Called c =
         faba_in(f.path, std::string("compare-controllers study.toml --out out --shard ") + shard);

@@ -7,20 +7,12 @@
 #include "core/file.h"
 #include "core/table.h"
 #include "tests/app/run_directory.h"
-#include "tests/e2e/program.h"
+#include "tests/e2e/refused.h"
 #include "tests/vision/raw_files.h"
 
 using namespace faba;
 
 namespace {
-
-void refused(const TestFolder& f, const std::string& arguments, int code, const std::string& words) {
-  const Called c = faba_in(f.path, arguments);
-  INFO(arguments, " -> ", c.exit, ": ", c.err);
-  CHECK(c.exit == code);
-  CHECK(one_clear_line(c.err));
-  CHECK(c.err.find(words) != std::string::npos);
-}
 
 /// A greyscale PGM picture with a bright spot at (x, y).
 std::string spot(int width, int height, double x, double y, double grey = 120) {

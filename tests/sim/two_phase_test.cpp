@@ -70,11 +70,13 @@ TEST_CASE("granted and refused moves follow the rule of D4, in one part and in s
     std::size_t agents;
     float reach;
   };
-  const std::vector<Case> cases{{{40, 30, 1, 0, 0}, 900, 1.5f},      // dense
-                                {{40, 30, 1, 0, 0}, 100, 50.0f},     // far moves, many of them to the border
-                                {{700, 500, 1, 0, 0}, 60000, 2.0f},  // several parts
-                                {{700, 500, 1, 0, 0}, 9000, 2.0f},   // unused blocks of sites
-                                {{1, 1, 1, 0, 0}, 1, 3.0f}};
+  const std::vector<Case> cases{
+      {{40, 30, 1, 0, 0}, 900, 1.5f},         // dense
+      {{40, 30, 1, 0, 0}, 100, 50.0f},        // far moves, many of them to the border
+      {{700, 500, 1, 0, 0}, 60000, 2.0f},     // several parts
+      {{700, 500, 1, 0, 0}, 9000, 2.0f},      // unused blocks of sites
+      {{2100, 1100, 1, 0, 0}, 30000, 40.0f},  // several regions, and moves between them
+      {{1, 1, 1, 0, 0}, 1, 3.0f}};
   for (const Case& k : cases) {
     TwoPhase two_phase(k.grid);  // one for all: no call may depend on the calls before
     for (const bool follow : {false, true})

@@ -20,16 +20,6 @@ using Eigen::VectorXd;
 
 constexpr int kMostSamples = 100;  // of the parameters of an experiment
 
-// A part of the cells becomes a second swarm.
-void add_second_swarm(Document& d, double fraction) {
-  Json& swarms = d.root["swarm"];
-  const double count = swarms[0]["count"].get<double>();
-  Json second = swarms[0];
-  second["count"] = std::max<std::int64_t>(1, std::llround(fraction * count));
-  swarms[0]["count"] = std::max<std::int64_t>(1, std::llround((1 - fraction) * count));
-  swarms.push_back(std::move(second));
-}
-
 // Cells of the opposite polarity do not gather where the others do: their headings are random.
 void release_opposite(Json& swarms) {
   const auto polarity = [](const Json& swarm) { return swarm.value("polarity", "south"); };
@@ -41,7 +31,7 @@ ModelFamily difference_of(const ExperimentKind& kind) {
   ModelFamily f;
   f.field_factor = kind.field_factor;
   f.edit = [&kind](Document& d) {
-    if (kind.second_swarm > 0) add_second_swarm(d, kind.second_swarm);
+    if (kind.second_swarm > 0) divide_swarm(d, kind.second_swarm);
     for (const auto& [path, value] : kind.set) d.set(path, value, kind.name + ".set");
     release_opposite(d.root["swarm"]);
   };

@@ -16,11 +16,10 @@ constexpr double kMostSearched = 20;                 // s: part in which an unkn
 constexpr double kHalfSearch = 0.5;  // s before and after a possible change that are compared in the search
 constexpr double kEarlier = 0.5;     // s before the detected change at which the search of the onset starts
 constexpr double kNormal90 = 1.645;  // quantile of the normal distribution for a 90 % interval
-// s after the rise at which the measurement of speed and fraction starts: cells that leave an edge together
-// overlap before. Assumed.
-constexpr double kSeparated = 0.3;
+// s: speed and fraction are measured for kMeasured from kSeparated after the rise; before, cells that leave
+// an edge together overlap. Assumed.
+constexpr double kSeparated = 0.3, kMeasured = 1;
 constexpr double kAnyDirection = 12;  // independent possibilities of a direction that is not given. Assumed
-constexpr double kMeasured = 1;       // s
 
 /// The components of one measure.
 struct ShiftComponents {

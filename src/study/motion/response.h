@@ -37,8 +37,8 @@ struct Response {
   /// Without a response in a given direction: that of another significant change of the velocity.
   std::optional<double> other_direction_deg = {};
   std::string fraction_method;  ///< of `fraction`; empty when it is unknown
-  std::optional<Measured>
-      fraction;  ///< of the objects in view from 0.3 to 1.3 s after the rise; 0: no response
+  /// Of the objects in view from 0.3 to 1.3 s after the rise; 0: no response.
+  std::optional<Measured> fraction;
   std::optional<Measured> speed_px_s;  ///< mean, along the direction, of the responding objects
   std::optional<FlowVerdict> flow;
 };

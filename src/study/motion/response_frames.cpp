@@ -23,8 +23,8 @@ constexpr int kSampled = 40;         // frames of the median
 constexpr double kDefaultSize = 4;   // px, as DetectorOptions: when no spot is significant
 constexpr double kSmoothing = 8;     // px: scale of the illumination, for the polarity
 constexpr double kSegmentSizes = 3;  // length of the closing segment over the size of an object
-constexpr double kLeastLight =
-    0.3;  // of the median light: noise is not amplified more where it is dark. Assumed
+// Of the median light: where it is darker, noise is not amplified more. Assumed.
+constexpr double kLeastLight = 0.3;
 
 GrayF scaled(const GrayF& frame, float by) {
   GrayF out = frame;

@@ -35,16 +35,6 @@ void set_number(Document& d, const std::string& path, double value, const char* 
   d.set(path, *unit ? Json(fmt::format("{} {}", value, unit)) : Json(value), "family");
 }
 
-// The cells are divided: `fraction` of them become a second swarm.
-void divide(Document& d, double fraction) {
-  Json& swarms = d.root["swarm"];
-  const double count = swarms[0]["count"].get<double>();
-  Json second = swarms[0];
-  second["count"] = std::max<std::int64_t>(1, std::llround(fraction * count));
-  swarms[0]["count"] = std::max<std::int64_t>(1, std::llround((1 - fraction) * count));
-  swarms.push_back(std::move(second));
-}
-
 /// A rate or a fraction of the model, if it has one that is neither free nor zero by definition.
 void add_parameter(std::vector<ModelFamily>& all, const Candidate& c, const Json& scenario,
                    const std::string& path, double change, const char* unit, const char* range,
@@ -82,7 +72,7 @@ void add_swimming(std::vector<ModelFamily>& all, const Candidate& c, const Json&
        .advice = "add to the model: populations = 2, and to free: \"swarm[1].model.speed\" = [\"0 um/s\", "
                  "\"100 um/s\"], \"swarm[1].count\" = [1, 1000]",
        .edit = [](Document& d) {
-         divide(d, kSlowFraction);
+         divide_swarm(d, kSlowFraction);
          for (const char* key : {"speed", "speed_sd"})
            set_number(d, fmt::format("swarm[1].model.{}", key), kSlowSpeed * number_at(d, kModel + key),
                       "m/s");
@@ -103,7 +93,7 @@ void add_steering(std::vector<ModelFamily>& all, const Candidate& c, const Json&
          .advice = "add to the model: populations = 2, set = { \"swarm[1].polarity\" = \"north\" }, and to "
                    "free: \"swarm[1].count\" = [1, 1000]",
          .edit = [](Document& d) {
-           divide(d, kOppositeFraction);
+           divide_swarm(d, kOppositeFraction);
            Json& second = d.root["swarm"][1];
            const bool north = second.contains("polarity") && second["polarity"] == "north";
            second["polarity"] = north ? "south" : "north";
@@ -139,6 +129,15 @@ void add_recording(std::vector<ModelFamily>& all) {
 }
 
 }  // namespace
+
+void divide_swarm(Document& d, double fraction) {
+  Json& swarms = d.root["swarm"];
+  const double count = swarms[0]["count"].get<double>();
+  Json second = swarms[0];
+  second["count"] = std::max<std::int64_t>(1, std::llround(fraction * count));
+  swarms[0]["count"] = std::max<std::int64_t>(1, std::llround((1 - fraction) * count));
+  swarms.push_back(std::move(second));
+}
 
 std::vector<ModelFamily> families_of(const Candidate& c, const Json& scenario) {
   std::vector<ModelFamily> all;

@@ -27,6 +27,9 @@ struct ModelFamily {
   double drift_px_s = 0;
 };
 
+/// Divides the cells of the first swarm of a scenario: `fraction` of them become a second swarm.
+void divide_swarm(Document& scenario, double fraction);
+
 /// The families by which a candidate can be extended. `scenario`: of the candidate, with its free parameters.
 std::vector<ModelFamily> families_of(const Candidate& candidate, const Json& scenario);
 
