@@ -156,5 +156,6 @@ def environment(pid):
 
 
 def parent(pid):
-    """Process id of the parent of a process."""
-    return int(read(f"/proc/{pid}/stat").rsplit(")", 1)[1].split()[1])
+    """Process id of the parent of a process; 0 when the process has ended."""
+    stat = read(f"/proc/{pid}/stat")
+    return int(stat.rsplit(")", 1)[1].split()[1]) if stat else 0
