@@ -112,6 +112,7 @@ HOME = {
     "nanoflann": {"field"},
     "nlopt": {"study"},
     "zlib": {"app", "study"},
+    "openssl/": {"study"},
     "boost/math": {"core"},
     "boost/geometry": {"study"},
     "boost/asio": {"server"},

@@ -4,7 +4,7 @@
 set -euo pipefail
 
 packages=(g++ cmake ninja-build ccache pkg-config libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev
-  libeigen3-dev libnlopt-cxx-dev libnanoflann-dev zlib1g-dev libhdf5-dev libdeflate-dev libopencv-core-dev libopencv-imgproc-dev libopencv-video-dev libopencv-videoio-dev
+  libeigen3-dev libnlopt-cxx-dev libnanoflann-dev zlib1g-dev libssl-dev libhdf5-dev libdeflate-dev libopencv-core-dev libopencv-imgproc-dev libopencv-video-dev libopencv-videoio-dev
   liblemon-dev libavformat-dev libavcodec-dev libavutil-dev libswscale-dev libtiff-dev libboost-dev)
 for what in "$@"; do
   case $what in

@@ -13,6 +13,7 @@
 #include "study/data/run_video.h"
 #include "vision/files/grey_video.h"
 #include "vision/flow/flow_file.h"
+#include "vision/image/kernels/arithmetic.h"
 
 namespace faba {
 namespace {
@@ -213,7 +214,7 @@ void FlowSource::Impl::do_jobs(Item& item) {
 void FlowSource::Impl::compute(Item& item, FlowMethod& flow) const {
   do_jobs(item);
   FlowPair& pair = item.pair;
-  pair.image = *item.after;
+  pair.image = item.after;
   if (options.kept && options.samples == 0)
     if (std::optional<Flow> kept = options.kept->take(pair.frame)) {
       pair.flow = std::move(*kept);
@@ -221,8 +222,7 @@ void FlowSource::Impl::compute(Item& item, FlowMethod& flow) const {
     }
   flow.between(*item.before, *item.after, pair.flow);
   if (const int side = video->side(); side > 1)
-    for (GrayF* c : {&pair.flow.u, &pair.flow.v})
-      for (float& x : c->px) x *= float(side);
+    for (GrayF* c : {&pair.flow.u, &pair.flow.v}) multiply(*c, float(side));
   if (options.kept && options.samples > 0) options.kept->keep(pair.frame, pair.flow);
 }
 

@@ -18,8 +18,9 @@ namespace faba {
 struct FlowPair {
   std::uint64_t frame = 0;  ///< index of the first one
   double t0_s = 0, t1_s = 0;
-  Flow flow;    ///< px of the video per pair, on the pixel grid of the source
-  GrayF image;  ///< the second frame, grey levels 0 to 255, same size; empty when read from a file of flows
+  Flow flow;  ///< px of the video per pair, on the pixel grid of the source
+  /// The second frame, grey levels 0 to 255, same size; none when read from a file of flows.
+  std::shared_ptr<const GrayF> image;
 };
 
 /// Options for the computation of flows from frames.

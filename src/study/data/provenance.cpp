@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "core/sha256.h"
 #include "study/data/run_video.h"
+#include "study/data/sha256.h"
 #include "vision/files/picture_sequence.h"
 
 namespace faba {

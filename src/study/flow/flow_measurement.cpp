@@ -108,12 +108,11 @@ VideoFlow measure_flow(FlowSource& source, const std::function<void(const FlowPa
   FlowSums sums;
   double t0 = 0;
   FlowCheck check;
-  GrayF before;
+  std::shared_ptr<const GrayF> before;
   while (source.next(pair)) {
     if (r.pairs++ == 0) t0 = pair.t0_s;
     sums.add(pair.flow);
-    if (r.pairs % kCheckedPairs == 0 && !before.empty())
-      check.add(before, pair.image, pair.flow, source.shrink());
+    if (r.pairs % kCheckedPairs == 0 && before) check.add(*before, *pair.image, pair.flow, source.shrink());
     if (r.pairs % kCheckedPairs == kCheckedPairs - 1) before = pair.image;
     take(pair);
   }

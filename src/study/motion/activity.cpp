@@ -159,7 +159,7 @@ void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index,
       a.busiest = pair;
       a.busiest_deg = direction_of(a.signature.sum(k));
     }
-    light.add(std::move(pair.image));
+    light.add(pair.image);
     job.progress(index, k + 1, source.pairs());
     check_stop(job, a.input);
   }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "vision/cells/spot_fit.h"
+#include "vision/image/kernels/arithmetic.h"
 #include "vision/image/kernels/smoothing.h"
 
 namespace faba {
@@ -27,8 +28,7 @@ ShiftPicture shift_picture(const GrayF& objects, double t_s, double size_px, dou
   p.t_s = t_s;
   const double sd = size_px / kFwhmPerSd;
   p.band = smoothed(objects, sd);
-  const GrayF wide = smoothed(p.band, kSurround);
-  for (std::size_t i = 0; i < p.band.px.size(); ++i) p.band.px[i] -= wide.px[i];
+  subtract(p.band, smoothed(p.band, kSurround));
   // Variance of white noise after smoothing with a Gaussian: 1 / (4 pi sd^2).
   const auto least = float(kForegroundSd * noise / std::sqrt(4 * M_PI * sd * sd));
   for (int r = 0; r < p.band.height; ++r)

@@ -13,6 +13,7 @@
 #include "study/tracks/track_survey.h"
 #include "vision/cells/detector.h"
 #include "vision/foreground/kernels/line_closing.h"
+#include "vision/image/kernels/arithmetic.h"
 #include "vision/image/kernels/grey_scale.h"
 
 namespace faba {
@@ -26,10 +27,9 @@ constexpr double kSegmentSizes = 3;  // length of the closing segment over the s
 // Of the median light: where it is darker, noise is not amplified more. Assumed.
 constexpr double kLeastLight = 0.3;
 
-GrayF scaled(const GrayF& frame, float by) {
-  GrayF out = frame;
-  for (float& v : out.px) v *= by;
-  return out;
+GrayF scaled(GrayF frame, float by) {
+  multiply(frame, by);
+  return frame;
 }
 
 // Factors from a difference to the background to one relative to the light there, in units of the median
@@ -90,10 +90,8 @@ ResponseFrames::ResponseFrames(std::filesystem::path video, const VideoPart& par
 }
 
 GrayF ResponseFrames::prepared(GrayF& frame) const {
-  GrayF out = reduced(frame, side_);
-  const auto sign = float(sign_);
-  for (std::size_t i = 0; i < out.px.size(); ++i) out.px[i] = filled_.px[i] - sign * out.px[i];
-  for (std::size_t i = 0; i < gain_.px.size(); ++i) out.px[i] *= gain_.px[i];
+  GrayF out = difference(filled_, scaled(reduced(frame, side_), float(sign_)));
+  if (!gain_.empty()) multiply(out, gain_);
   return out;
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/statistics.h"
 #include "core/units.h"
+#include "vision/image/kernels/any_above.h"
 
 namespace faba {
 namespace {
@@ -12,6 +13,7 @@ namespace {
 constexpr double kSectorDeg = 360.0 / DirectionSums::kSectors;
 constexpr int kInCone = 90 * DirectionSums::kSectors / 360;
 constexpr std::uint64_t kSamples = 48;
+constexpr std::size_t kAtOnce = 128;  // px; in most there is no motion
 
 int wrapped(int sector) {
   return ((sector % DirectionSums::kSectors) + DirectionSums::kSectors) % DirectionSums::kSectors;
@@ -25,14 +27,19 @@ void Signature::add(const FlowPair& pair, int px_side) {
   // Rotated so that sector 0 starts at 0 degrees.
   const auto c = float(std::cos(zero_deg_ * kDegree)), s = float(std::sin(zero_deg_ * kDegree));
   const auto per_radian = float(DirectionSums::kSectors / (360 * kDegree));
-  for (std::size_t i = 0; i < pair.flow.u.px.size(); ++i) {
-    const float u = pair.flow.u.px[i], v = pair.flow.v.px[i];
-    if (!(u * u + v * v > least)) continue;
-    const float turn = std::atan2(v * c - u * s, u * c + v * s) * per_radian;
-    const auto sector = std::size_t(wrapped(int(std::floor(turn))));
-    sums.amount[sector] += std::fabs(u) + std::fabs(v);
-    sums.u[sector] += u;
-    sums.v[sector] += v;
+  const auto& [us, vs] = pair.flow;
+  for (std::size_t first = 0; first < us.px.size(); first += kAtOnce) {
+    const std::size_t end = std::min(first + kAtOnce, us.px.size());
+    if (!any_longer(&us.px[first], &vs.px[first], least, int(end - first))) continue;
+    for (std::size_t i = first; i < end; ++i) {
+      const float u = us.px[i], v = vs.px[i];
+      if (!(u * u + v * v > least)) continue;
+      const float turn = std::atan2(v * c - u * s, u * c + v * s) * per_radian;
+      const auto sector = std::size_t(wrapped(int(std::floor(turn))));
+      sums.amount[sector] += std::fabs(u) + std::fabs(v);
+      sums.u[sector] += u;
+      sums.v[sector] += v;
+    }
   }
   const auto area = float(px_side * px_side);
   for (auto* list : {&sums.amount, &sums.u, &sums.v})

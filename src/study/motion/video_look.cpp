@@ -24,10 +24,10 @@ bool too_small(const GrayF& frame) { return frame.width < 3 || frame.height < 3;
 
 }  // namespace
 
-void LightChange::add(GrayF frame) {
-  if (too_small(frame)) return;
-  if (!before_.empty()) {
-    imitated_px_ += imitated_px_by(frame_change(before_, frame));
+void LightChange::add(std::shared_ptr<const GrayF> frame) {
+  if (!frame || too_small(*frame)) return;
+  if (before_) {
+    imitated_px_ += imitated_px_by(frame_change(*before_, *frame));
     ++pairs_;
   }
   before_ = std::move(frame);

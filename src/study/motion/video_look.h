@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,14 +12,14 @@ namespace faba {
 /// Change of the brightness from frame to frame.
 class LightChange {
  public:
-  /// Frames in sequence; those smaller than 3 x 3 px, as of flows from a file, are ignored.
-  void add(GrayF frame);
+  /// Frames in sequence; none, as of flows from a file, and those smaller than 3 x 3 px are ignored.
+  void add(std::shared_ptr<const GrayF> frame);
   /// Displacement, px, that the mean change of the brightness imitates at the mean gradient; 0 without
   /// frames.
   double imitated_px() const;
 
  private:
-  GrayF before_;
+  std::shared_ptr<const GrayF> before_;
   double imitated_px_ = 0;  ///< sum over pairs
   int pairs_ = 0;
 };

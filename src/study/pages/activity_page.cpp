@@ -299,7 +299,7 @@ std::string activity_page(const ActivityResult& r, const Provenance& provenance)
 }
 
 void write_activity_picture(const std::filesystem::path& file, const VideoActivity& a) {
-  if (a.busiest.image.empty())
+  if (!a.busiest.image)
     throw Error(Errc::usage, "--picture", "a flow file contains no frames; give the video");
   const double direction = a.direction_given ? a.direction_deg : a.busiest_deg;
   const Flow kept = filtered_flow(a.busiest.flow, {a.threshold_px, direction});

@@ -41,12 +41,11 @@ class FlowOutputs {
   void take(const FlowPair& p) {
     if (file_) file_->write(p.frame, p.t0_s, p.t1_s, p.flow);
     if (!overlay_) return;
-    if (p.image.empty())
-      throw Error(Errc::usage, "--overlay", "a flow file contains no frames; give the video");
+    if (!p.image) throw Error(Errc::usage, "--overlay", "a flow file contains no frames; give the video");
     if (full_ <= 0) full_ = full_speed(p.flow);  // one scale for all frames
     FlowDrawing how;
     how.full_px = full_;
-    overlay_->write(draw_flow_on(p.image, p.flow, how));
+    overlay_->write(draw_flow_on(*p.image, p.flow, how));
   }
   void complete() {
     if (file_) file_->close();

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "core/file.h"
-#include "core/sha256.h"
 #include "study/data/series.h"
+#include "study/data/sha256.h"
 #include "study/pages/frame_strip.h"
 #include "study/pages/latency_figure.h"
 #include "study/pages/provenance_output.h"

@@ -13,9 +13,9 @@
 namespace faba {
 
 /// Counts the cells in view of a part of a video (anything VideoReader reads, or a run), detected by
-/// Detector: the mean over at least fifty of its frames. Needs two readings of the frames, which may serve
-/// other work at the same time. For a run without a camera video the mean follows from its series, and a file
-/// of flows has no frames: nothing is read then.
+/// Detector: the mean over 13 to 25 of its frames, or all if there are fewer. Needs two readings of the
+/// frames, which may serve other work at the same time. For a run without a camera video the mean follows
+/// from its series, and a file of flows has no frames: nothing is read then.
 class CellCount {
  public:
   CellCount(const std::filesystem::path& path, const VideoPart& part, unsigned threads);

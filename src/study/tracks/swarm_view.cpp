@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/statistics.h"
+#include "vision/image/kernels/arithmetic.h"
 
 namespace faba {
 namespace {
@@ -14,10 +15,6 @@ ForegroundOptions options_of(const TrackSurvey& s) {
   o.polarity = s.polarity == Polarity::both ? Polarity::automatic : s.polarity;
   o.learn = s.temporal;  // else each frame has its own background
   return o;
-}
-
-void multiply(GrayF& frame, float by) {
-  for (float& v : frame.px) v *= by;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/statistics.h"
 #include "vision/image/kernels/all_finite.h"
+#include "vision/image/kernels/arithmetic.h"
 #include "vision/image/kernels/grey_scale.h"
 #include "vision/image/kernels/smoothing.h"
 
@@ -24,11 +25,9 @@ constexpr std::size_t kGaps = 10000;  // largest number of stored frame interval
 
 // Polarity of the differences from the surroundings at the scale of cells, 1.5 to 8 px.
 Polarity detected_polarity(const GrayF& frame, const Background& b) {
-  GrayF d = frame;
-  for (std::size_t i = 0; i < d.px.size(); ++i) d.px[i] -= b.level.px[i];
+  const GrayF d = difference(frame, b.level);
   GrayF fine = smoothed(d, 1);
-  const GrayF coarse = smoothed(d, 6);
-  for (std::size_t i = 0; i < d.px.size(); ++i) fine.px[i] -= coarse.px[i];
+  subtract(fine, smoothed(d, 6));
   return polarity_of(fine.px);
 }
 

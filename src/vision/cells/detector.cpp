@@ -10,6 +10,7 @@
 #include "vision/cells/spot_fit.h"
 #include "vision/image/coding_traces.h"
 #include "vision/image/kernels/any_above.h"
+#include "vision/image/kernels/arithmetic.h"
 #include "vision/image/kernels/smoothing.h"
 
 namespace faba {
@@ -37,16 +38,12 @@ NoiseResponse noise_response(double sd) {
 
 GrayF band_passed(const GrayF& difference, double sd) {
   GrayF out = smoothed(difference, sd);
-  const GrayF wide = smoothed(difference, kSurroundRatio * sd);
-  for (std::size_t i = 0; i < out.px.size(); ++i) out.px[i] -= wide.px[i];
+  subtract(out, smoothed(difference, kSurroundRatio * sd));
   return out;
 }
 
 GrayF difference_of(const GrayF& frame, const Background& background, double sign) {
-  GrayF d(frame.width, frame.height);
-  const auto s = float(sign);
-  for (std::size_t i = 0; i < d.px.size(); ++i) d.px[i] = s * (frame.px[i] - background.level.px[i]);
-  return d;
+  return sign > 0 ? difference(frame, background.level) : difference(background.level, frame);
 }
 
 // A maximum of the response of spots of one size.

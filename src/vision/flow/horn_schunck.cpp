@@ -141,20 +141,22 @@ void HornSchunck<T>::coarse_to_fine() {
 }
 
 template <class T>
-const FlowPlanes<T>& HornSchunck<T>::between(const Plane<T>& a, const Plane<T>& b) {
-  levels_.resize(1);
-  levels_[0].a = a;
-  levels_[0].b = b;
-  smooth(levels_[0].a, p_.smooth);
-  smooth(levels_[0].b, p_.smooth);
+const FlowPlanes<T>& HornSchunck<T>::between(Plane<T>& a, Plane<T>& b) {
   done_ = 0;
+  const bool copied = p_.pyramid || p_.smooth > 0;
+  if (copied) {
+    levels_.resize(1);
+    levels_[0] = {a, b};
+    smooth(levels_[0].a, p_.smooth);
+    smooth(levels_[0].b, p_.smooth);
+  }
   if (p_.pyramid) {
     coarse_to_fine();
-  } else {
-    w_.resize(a.width(), a.height());
-    w_.clear();
-    solve(levels_[0].a, levels_[0].b, false);
+    return w_;
   }
+  w_.resize(a.width(), a.height());
+  w_.clear();
+  solve(copied ? levels_[0].a : a, copied ? levels_[0].b : b, false);
   return w_;
 }
 

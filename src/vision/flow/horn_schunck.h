@@ -28,8 +28,9 @@ class HornSchunck {
  public:
   HornSchunck(const HornSchunckParams& p, Pool& pool) : p_(p), pool_(pool) {}
 
-  /// Flow from `a` to `b`: frames of the same size, grey values 0 to 255. Valid until the next call.
-  const FlowPlanes<T>& between(const Plane<T>& a, const Plane<T>& b);
+  /// Flow from `a` to `b`: frames of the same size, grey values 0 to 255, whose margins are written. Valid
+  /// until the next call.
+  const FlowPlanes<T>& between(Plane<T>& a, Plane<T>& b);
   /// Sweeps (jacobi) or cycles (multigrid) on the finest grid for the last pair, summed over warps.
   int iterations() const { return done_; }
   /// Whether the last solution reached the tolerance within the iteration limit.
@@ -44,7 +45,7 @@ class HornSchunck {
 
   HornSchunckParams p_;
   Pool& pool_;
-  std::vector<Level> levels_;  ///< from fine to coarse
+  std::vector<Level> levels_;  ///< from fine to coarse; for smoothed frames or a pyramid
   Plane<T> warped_;
   FlowDerivatives<T> derivatives_;
   FlowSystem<T> system_;

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "core/statistics.h"
+#include "vision/image/kernels/arithmetic.h"
 
 namespace faba {
 namespace {
@@ -82,9 +83,8 @@ CodingTraces coding_traces(const std::vector<GrayF>& frames) {
   Steps steps{std::vector<double>(std::size_t(frames[0].width - 1)),
               std::vector<double>(std::size_t(frames[0].height - 1))};
   double blocks = 0, equal = 0;
-  GrayF change(frames[0].width, frames[0].height);
   for (std::size_t k = 1; k < std::min(frames.size(), kMostPairs + 1); ++k) {
-    for (std::size_t i = 0; i < change.px.size(); ++i) change.px[i] = frames[k].px[i] - frames[k - 1].px[i];
+    const GrayF change = difference(frames[k], frames[k - 1]);
     add_steps(change, steps);
     for_blocks(change, [&](int x, int y) {
       blocks += 1;

@@ -59,12 +59,13 @@ TEST_CASE("light: a uniform change imitates the displacement of an edge by its c
     GrayF p(40, 30);
     for (int r = 0; r < p.height; ++r)
       for (int c = 0; c < p.width; ++c) p.at(c, r) = level + 4 * float(c);
-    return p;
+    return std::make_shared<const GrayF>(std::move(p));
   };
   light.add(ramp(50));
   CHECK(light.imitated_px() == 0);
   light.add(ramp(53));  // 3 grey levels at 4 levels per px
   CHECK(light.imitated_px() == doctest::Approx(0.75).epsilon(1e-6));
-  light.add(GrayF(2, 2));  // too small
+  light.add(nullptr);
+  light.add(std::make_shared<const GrayF>(2, 2));  // too small
   CHECK(light.imitated_px() == doctest::Approx(0.75).epsilon(1e-6));
 }

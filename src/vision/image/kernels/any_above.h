@@ -6,4 +6,7 @@ namespace faba {
 /// weights.
 bool any_above(const float* values, const float* weights, float threshold, int n);
 
+/// Whether the squared length of one of `n` vectors (u, v) is above `squared`.
+bool any_longer(const float* u, const float* v, float squared, int n);
+
 }  // namespace faba

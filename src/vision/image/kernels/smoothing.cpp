@@ -57,10 +57,15 @@ FABA_WIDE(add_taps, (const Taps& t, float* out, int n), (t, out, n))
 void convolve(int w, int h, const RowSource& row_of, const std::vector<float>& weights, GrayF& out,
               GrayF& work) {
   const int reach = int(weights.size()) - 1;
-  work.width = w;
+  // An odd number of cache lines from row to row: at a multiple of 4 KiB, a column of rows would share a few
+  // lines of the first-level cache.
+  constexpr int kLine = 64 / int(sizeof(float));
+  work.width = ((w + kLine - 1) / kLine | 1) * kLine;
   work.height = std::min(h, 2 * reach + 1);
-  work.px.resize(std::size_t(w) * std::size_t(work.height));
-  const auto kept = [&](int row) { return &work.px[std::size_t(row % work.height) * std::size_t(w)]; };
+  work.px.resize(std::size_t(work.width) * std::size_t(work.height));
+  const auto kept = [&](int row) {
+    return &work.px[std::size_t(row % work.height) * std::size_t(work.width)];
+  };
   std::vector<float> line(std::size_t(w + 2 * reach));
   std::vector<const float*> left, right, above(weights.size()), below(weights.size());
   for (int k = 0; k <= reach; ++k) {

@@ -1,4 +1,4 @@
-#include "core/sha256.h"
+#include "study/data/sha256.h"
 
 #include <doctest/doctest.h>
 
