@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "study/coils/field_model.h"
 
 namespace faba {
 namespace {

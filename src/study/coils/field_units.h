@@ -2,7 +2,8 @@
 #include <optional>
 #include <string>
 
-#include "study/coils/field_checks.h"
+#include "field/field.h"
+#include "field/field_data.h"
 
 namespace faba {
 
