@@ -68,14 +68,16 @@ ReferenceRoute::ReferenceRoute(const Params& p, const ControlContext& c)
 }
 
 Target ReferenceRoute::update(const Estimate& e) {
-  if (!started_) {
+  const bool first = !started_;
+  if (first) {
     started_ = true;
     since_ = e.t;
   }
   const bool near = e.visible > 0 && norm(e.centroid - points_[index_]) < tolerance_;
   inside_ = near ? inside_ + 1 : 0;
   const bool timed_out = p_.timeout && e.t - since_ >= *p_.timeout;
-  if (inside_ >= p_.hold_frames || timed_out) {
+  // The first frame has the first setpoint in any case: a recording contains all setpoints of the route.
+  if (!first && (inside_ >= p_.hold_frames || timed_out)) {
     if (index_ + 1 < points_.size()) {
       ++index_;
       inside_ = 0;

@@ -203,6 +203,14 @@ TEST_CASE("route: advances after the hold or the timeout, and finishes") {
   CHECK(hurried->update(e).index == 1);
 }
 
+TEST_CASE("route: the first frame has the first setpoint, even if the swarm is there and need not stay") {
+  const auto r = part(kParts.reference,
+                      "p = { type = 'route', setpoints_px = [[0, 0], [9, 9]], hold_frames = 1 }", context());
+  Estimate e = at({-319.5, 239.5});
+  CHECK(r->update(e).index == 0);
+  CHECK(r->update(e).index == 1);
+}
+
 TEST_CASE("estimators: mean of all cells, mean of those in view, last centroid with none in view") {
   Observation o;
   o.seen = {{0, 0, true}, {2e-6f, 0, true}, {10e-6f, 9e-6f, false}};

@@ -146,8 +146,8 @@ TEST_CASE("drop: a rendered drop is detected; run --from-video keeps the swarm i
   CHECK(faba_in(f.path, "track drop.pgm --drop").err.find("faba: note: drop: centre (") != std::string::npos);
   CHECK(run.json()["settling_time_s"].is_number());
   // The scale of the picture is not known.
-  CHECK(j["um_per_px"].is_null());
   CHECK(run.json()["um_per_px"].is_null());
+  CHECK(j["um_per_px"].is_null());
   CHECK(run.json()["um_per_px_source"].is_null());
   CHECK(run.json()["nominal_um_per_px"] == 0.9164);
   REQUIRE(run.json()["warnings"].size() == 1);

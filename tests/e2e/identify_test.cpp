@@ -37,6 +37,39 @@ void make_film(const TestFolder& f, const std::string& more = "") {
   REQUIRE_MESSAGE(c.exit == 0, c.err);
 }
 
+// A film of `cells` dipoles of 60 um/s with the given keys; the field reverses at 0.6 s and every 1.2 s
+// after.
+void film_dipoles(const TestFolder& f, int reversals, int cells, const std::string& keys) {
+  std::string scene = kScene;
+  for (int k = 1; k < reversals; ++k)
+    scene += fmt::format("[[controller.segment]]\nat = \"{} s\"\nfield = [\"{} uT\", \"0 T\"]\n",
+                         0.6 + 1.2 * k, k % 2 == 0 ? -69 : 69);
+  write_file(f.path / "scene.toml", scene);
+  const std::string model = "{type = \"dipole\", speed = \"60 um/s\", speed_sd = \"10 um/s\", " + keys + "}";
+  const Called c =
+      faba_in(f.path, fmt::format("run scene.toml --seed 3 --quiet --force --out film --set "
+                                  "duration='{} s' --set swarm[0].count={} --set swarm[0].model='{}'",
+                                  reversals == 1 ? 3.2 : 0.7 + 1.2 * reversals, cells, model));
+  REQUIRE_MESSAGE(c.exit == 0, c.err);
+}
+
+// Identifies the speed of the dipoles of a film, which states its field strength.
+nlohmann::json identified(const TestFolder& f, const std::string& head, const std::string& out) {
+  write_file(f.path / "study.toml",
+             "boundary = \"box\"\nlook = \"positions\"\n" + head +
+                 "[[video]]\nfile = \"film\"\n[[model]]\ntype = \"dipole\"\nspeed_sd = \"10 um/s\"\n"
+                 "free = { \"swarm[0].model.speed\" = [\"10 um/s\", \"200 um/s\"] }\n");
+  const Called c = faba_in(f.path, "identify study.toml --json --out " + out);
+  REQUIRE_MESSAGE(c.exit == 0, c.err);
+  return c.json();
+}
+
+std::vector<std::string> aspects(const nlohmann::json& result) {
+  std::vector<std::string> out;
+  for (const auto& w : result.value("warnings", nlohmann::json::array())) out.push_back(w["aspect"]);
+  return out;
+}
+
 std::filesystem::path only_file_in(const std::filesystem::path& folder) {
   return std::filesystem::directory_iterator(folder)->path();
 }
@@ -94,23 +127,11 @@ TEST_CASE("a rendered step response: model and parameter; shards and a kill do n
 
 TEST_CASE(
     "half of the cells is not motile: with nuisance parameters the interval of the speed contains the true "
-    "value, "
-    "without them the result is wrong and has a warning") {
+    "value, without them the result is wrong and a warning says that a part does not swim or respond") {
   const TestFolder f;
-  make_film(f,
-            "--set swarm[0].count=80 --set swarm[0].model='{type=\"dipole\", speed=\"60 um/s\", "
-            "speed_sd=\"10 um/s\", "
-            "motile=0.5}'");
-  const std::string study = kHead +
-                            "[[model]]\ntype = \"dipole\"\nspeed_sd = \"10 um/s\"\nfree = { "
-                            "\"swarm[0].model.speed\" = [\"10 um/s\", \"200 um/s\"] }\n";
-  const auto result = [&](const std::string& head, const std::string& out) {
-    write_file(f.path / "study.toml", head + study);
-    const Called c = faba_in(f.path, "identify study.toml --json --out " + out);
-    REQUIRE_MESSAGE(c.exit == 0, c.err);
-    return c.json();
-  };
-  const auto m = result("", "out")["models"][0];
+  film_dipoles(f, 1, 80, "motile = 0.5");
+  const std::string head = "simulations = 150\nreversal = \"0.6 s\"\ndirection = 0\nduration = \"2.4 s\"\n";
+  const auto m = identified(f, head, "out")["models"][0];
   const auto speed = m["parameters"]["swarm[0].model.speed"]["ci90"];
   CHECK(speed[0].get<double>() <= 60e-6);
   CHECK(60e-6 <= speed[1].get<double>());
@@ -119,10 +140,27 @@ TEST_CASE(
   CHECK(!m["nuisances"].contains("swarm[0].model.speed_sd"));  // the study fixes it
   CHECK(m["families"].size() >= 4);
 
-  const auto off = result("nuisances = false\n", "off");
+  const auto off = identified(f, "nuisances = false\n" + head, "off");
   CHECK(off["models"][0]["parameters"]["swarm[0].model.speed"]["ci90"][1].get<double>() < 60e-6);
   CHECK(off["models"][0]["nuisances"].empty());
   CHECK(off["quality"] != "good");
+  // So few cells do not distinguish cells that do not swim from those that do not respond, or swim slowly.
+  bool significant = false;
+  for (const auto& c : off["models"][0]["families"])
+    significant = significant || (c["aspect"] == "motile_fraction" && c["significant"] == true);
+  CHECK(significant);
+  const std::vector<std::string> named = aspects(off);
+  REQUIRE(!named.empty());
+  for (const std::string& aspect : named)
+    CHECK((aspect == "motile_fraction" || aspect == "responsive_fraction" || aspect == "speed_spread"));
+}
+
+TEST_CASE("cells that reverse their motors do not fit, and the warning names turning") {
+  const TestFolder f;
+  film_dipoles(f, 4, 80, "reversal_rate = \"0.5 1/s\"");
+  const auto j = identified(f, "simulations = 150\n", "out");
+  CHECK(aspects(j) == std::vector<std::string>{"turning"});
+  CHECK(j["quality"] != "good");
 }
 
 TEST_CASE("the 90 % interval of a parameter contains the true value for about nine videos in ten") {

@@ -77,3 +77,42 @@ TEST_CASE("quality and warnings of flow, activity, compare and track") {
                               "compare run run --no-floor", "track run"})
     checked(f, command);
 }
+
+TEST_CASE("activity: the onset of a response is not before the reversal of the field") {
+  const TestFolder f;
+  write_file(
+      f.path / "s.toml",
+      "duration = '4 s'\n[camera]\nrate = '30 Hz'\n[arena]\ntype = 'box'\nsize_px = [400, 200]\n"
+      "[scale]\num_per_px = 1\n[[swarm]]\ncount = 150\nmodel = { type = 'dipole', speed = '60 um/s' }\n"
+      "start = { type = 'edge', direction = '0 deg' }\n"
+      "[controller]\ntype = 'manual'\nfield = ['100 uT', '0 T']\n"
+      "[[controller.segment]]\nat = '1 s'\nfield = ['-100 uT', '0 T']\n"
+      "[record]\nas_seen = true\nlossless = true\ntracks = false\n");
+  REQUIRE(faba_in(f.path, "run s.toml --seed 4 --out run -q").exit == 0);
+  const Called c = faba_in(f.path, "activity run --direction 0 --json");
+  REQUIRE_MESSAGE(c.exit == 0, c.err);
+  const auto video = c.json()["videos"][0];
+  CHECK(video["onset_s"].get<double>() >= 1);
+  CHECK(video["onset_s"].get<double>() < 1.2);
+  REQUIRE(video.contains("onset_ci90"));
+  CHECK(video["onset_ci90"][0].get<double>() >= 1);
+}
+
+TEST_CASE("track: faint cells in a coded video are not counted several times, or the quality is not good") {
+  constexpr int kCells = 150;
+  const TestFolder f;
+  write_file(f.path / "s.toml",
+             "duration = '2 s'\n[camera]\nrate = '15 Hz'\n[arena]\ntype = 'box'\nsize_px = [640, 480]\n"
+             "[scale]\num_per_px = 1\n[microscope]\nnoise = 0.0025\ncontrast = -0.08\n"
+             "[[swarm]]\ncount = 150\nmodel = { type = 'dipole', speed = '30 um/s' }\n"
+             "start = { type = 'uniform' }\n[controller]\ntype = 'manual'\nfield = ['100 uT', '0 T']\n"
+             "[record]\nas_seen = true\ntracks = false\n");
+  REQUIRE(faba_in(f.path, "run s.toml --seed 4 --out run -q").exit == 0);
+  const Called c = faba_in(f.path, "track run/video.mp4 --json");
+  REQUIRE_MESSAGE(c.exit == 0, c.err);
+  const auto j = c.json();
+  const std::string quality = j.value("quality", "");
+  const double spots = j["detection"]["spots_per_frame"];
+  CAPTURE(spots);
+  CHECK((spots < 1.2 * kCells || quality == "doubtful" || quality == "poor"));
+}

@@ -94,6 +94,22 @@ TEST_CASE("a run that ends before its last setpoint is not settled, in the termi
   CHECK(read_file(f.path / "a/report.html").find("<b>not settled</b>") != std::string::npos);
 }
 
+TEST_CASE(
+    "a route whose first setpoint is reached in the first frame: all setpoints are recorded, and it "
+    "settles") {
+  const TestFolder f;
+  write_file(
+      f.path / "s.toml",
+      "duration = '4 s'\n[arena]\ntype = 'box'\nsize_px = [160, 120]\n[[swarm]]\ncount = 5\n"
+      "model = 'basic'\nstart = { type = 'places', places_px = [[80, 60]] }\n[controller]\ntype = 'fuzzy'\n"
+      "[reference]\ntype = 'route'\nsetpoints_px = [[80, 60], [85, 62]]\nhold_frames = 1\n");
+  const Called c = faba_in(f.path, "run s.toml --seed 1 --out a --json");
+  REQUIRE_MESSAGE(c.exit == 0, c.err);
+  CHECK(c.json()["setpoints"] == 2);
+  CHECK(c.json()["setpoints_reached"] == 2);
+  CHECK(c.json()["settling_time_s"].is_number());
+}
+
 TEST_CASE("run: a random seed is printed and recorded, and repeats the run") {
   const TestFolder f;
   write_file(f.path / "s.toml", kSmallScene);

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "study/coils/field_units.h"
+
 namespace faba {
 namespace {
 
@@ -25,9 +27,22 @@ std::optional<Warning> check_gain(const FieldFit& fit) {
     return Warning{"direction", "the gain is negative: the direction of a current or an axis is reversed",
                    fmt::format("gain {:.3g}", gain), "reverse the current or the axis", Quality::poor};
   if (gain >= 0.5 && gain <= 2) return std::nullopt;
-  return Warning{"gain", "the gain is far from 1", fmt::format("gain {:.3g}", gain),
-                 "check the turns, the current and the units",
+  const auto unit = likely_field_unit(gain);
+  return Warning{"gain", "the gain is far from 1",
+                 fmt::format("gain {:.3g}{}", gain, unit ? "; " + unit->evidence : ""),
+                 unit ? "check the unit of the field (--units), the turns and the current"
+                      : "check the turns, the current and the units",
                  gain < 0.1 || gain > 10 ? Quality::poor : Quality::doubtful};
+}
+
+// Of a poor fit.
+std::optional<Warning> check_units(const FittedField& f, double residual) {
+  if (residual < kLargeResidual) return std::nullopt;
+  const auto units = likely_units(f.field, f.data, f.centre, residual);
+  if (!units) return std::nullopt;
+  return Warning{"units", "a unit of the table is probably wrong",
+                 fmt::format("{}; it is {:.2g} % in the units of the table", units->evidence, 100 * residual),
+                 "correct the header, or give the units with --units", Quality::poor};
 }
 
 // The largest reading, if several readings have it and the fit to the others predicts a larger field there.
@@ -142,6 +157,7 @@ std::vector<Warning> field_warnings(const FittedField& f, FieldFit& result) {
   const auto add = [&](std::optional<Warning> w) {
     if (w) out.push_back(std::move(*w));
   };
+  add(check_units(f, residual));
   if (residual > kLargeResidual)
     add(Warning{"residual", "the coil system does not describe the measured field",
                 fmt::format("the residual is {:.0f} % of the field", 100 * residual),

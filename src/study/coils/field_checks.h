@@ -15,10 +15,10 @@ struct FittedField {
   const FieldModel& model;
   const DeterminedFit& fit;
 };
-/// The violated assumptions of a fit: residual, direction, gain, parameters that are not determined, readings
-/// at the end of the range of the probe, residuals that depend on their neighbours, the size of the coil, the
-/// direction of the axis. Adds "size" to the parameters that are not determined, if the size of the coil is
-/// not.
+/// The violated assumptions of a fit: units, residual, direction, gain, parameters that are not determined,
+/// readings at the end of the range of the probe, residuals that depend on their neighbours, the size of the
+/// coil, the direction of the axis. Adds "size" to the parameters that are not determined, if the size of the
+/// coil is not.
 std::vector<Warning> field_warnings(const FittedField& fitted, FieldFit& result);
 
 }  // namespace faba

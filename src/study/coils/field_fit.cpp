@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "app/files/field_points.h"
 #include "app/scenario/rig_editor.h"
@@ -12,6 +13,7 @@
 #include "core/units.h"
 #include "field/field_data.h"
 #include "study/coils/field_checks.h"
+#include "study/coils/field_units.h"
 #include "study/plot/plot_svg.h"
 
 namespace faba {
@@ -60,6 +62,22 @@ void check_values(const FieldModel& model, const std::string& data) {
         fmt::format("all values of the field are {:g} T; check the column and the range of the probe", *low));
 }
 
+// If the table determines nothing in its units, but fits in others, the error names these.
+DeterminedFit fit_or_units(FieldModel& model, const Field& field, std::optional<Vec3> centre,
+                           const std::string& file) {
+  try {
+    return determined_fit(model, file);
+  } catch (const Error&) {
+    const auto units = likely_units(field, model.data(), centre, std::numeric_limits<double>::infinity());
+    if (!units) throw;
+    throw Error(
+        Errc::input, file,
+        fmt::format("a unit of the table is probably wrong: the coil system does not describe the table "
+                    "in its units, but {}; correct the header, or give the units with --units",
+                    units->evidence));
+  }
+}
+
 }  // namespace
 
 FieldFit field_fit(const std::filesystem::path& rig, const std::filesystem::path& measured,
@@ -76,7 +94,7 @@ FieldFit field_fit(const std::filesystem::path& rig, const std::filesystem::path
   const FieldData data = field_data(read_field_points(measured, options.format));
   FieldModel model(*field, data, centre.value_or(Vec3{}), options.evaluated);
   check_values(model, measured.string());
-  const DeterminedFit determined = determined_fit(model, measured.string());
+  const DeterminedFit determined = fit_or_units(model, *field, centre, measured.string());
 
   FieldFit fit;
   fit.values = model.values().size();

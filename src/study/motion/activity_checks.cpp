@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "study/motion/segments.h"
+
 namespace faba {
 
 std::optional<Warning> light_warning(const LightChange& light, int px_side, double threshold_px) {

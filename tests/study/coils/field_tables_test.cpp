@@ -203,3 +203,40 @@ TEST_CASE("wrong tables give an error, or a poor quality with its reason") {
   CHECK(s.error("x_mm,z_mm,b_mt\n0,1,2\n").find("which component") != std::string::npos);
   CHECK(s.error("z_mm,b_kelvin\n0,1\n").find("no known unit") != std::string::npos);
 }
+
+TEST_CASE("a table in a wrong unit: the message names the likely unit and its evidence") {
+  struct Case {
+    const char *header, *likely;
+    double lengths, fields;  // per m, per T
+    bool fitted = true;
+  };
+  for (const Case& c :
+       {Case{"z_mm,b_t", "1000 times smaller, as of mT read as T", 1e3, 1e3},
+        Case{"z_mm,b_mt", "10 times smaller, as of G read as mT", 1e3, 1e4},
+        Case{"z_mm,b_t", "10000 times smaller, as of G read as T", 1e3, 1e4, false},
+        Case{"z_mm,b_mt", "1000 times larger, as of T read as mT", 1e3, 1},
+        Case{"z_m,b_mt", "lengths are 1000 times smaller, as of mm read as m", 1e3, 1e3},
+        Case{"z_mm,b_mt", "lengths are 10 times larger, as of cm read as mm", 1e2, 1e3, false},
+        Case{"z_mm,b_mt", "lengths are 25.4 times larger, as of inches read as mm", 1 / 25.4e-3, 1e3,
+             false}}) {
+    CAPTURE(c.header);
+    CAPTURE(c.likely);
+    Scanned s;
+    std::string table = std::string(c.header) + "\n";
+    for (int i = -20; i <= 20; ++i)
+      table += fmt::format("{:.8g},{:.8g}\n", 3e-3 * i * c.lengths, s.reading(3e-3 * i) * c.fields);
+    std::string message;
+    if (c.fitted) {
+      const FieldFit fit = s.fit("unit.csv", table);
+      CHECK(quality_of(fit.warnings) != Quality::good);
+      REQUIRE(!fit.warnings.empty());
+      message = sentence(fit.warnings.front());
+    } else {
+      message = s.error(table);
+    }
+    INFO(message);
+    CHECK(message.find(c.likely) != std::string::npos);
+    CHECK(message.find("the gain is 0.93 if") != std::string::npos);
+    CHECK(message.find("add points") == std::string::npos);
+  }
+}
