@@ -127,4 +127,63 @@ TEST_CASE("calibrate: invalid files are refused before the videos are read") {
   refused_study(f, "calibrate", "study = \"study.toml\"\n[[misspecified]]\nfield_factor = 2\n", 2,
                 "\"name\" is missing");
   refused_study(f, "calibrate", kFilm, 2, "is a scenario");
+  refused_study(f, "calibrate", "[[video]]\nfile = \"film\"\n", 2, "[[model]] is missing");
+  refused_study(f, "calibrate",
+                "study = \"study.toml\"\n[[misspecified]]\nname = \"drift\"\ntiming = \"0 s\"\naspects = "
+                "[\"drifts\"]\n",
+                2, "unknown aspect \"drifts\"; it must be one of turning, ");
+}
+
+TEST_CASE("calibrate: a value that no scenario has is refused with the line of the file") {
+  const TestFolder f;
+  make_design(f);
+  write_file(
+      f.path / "calibration.toml",
+      "study = \"study.toml\"\n[[misspecified]]\nname = \"none\"\nset = { \"swarm[0].model.sped\" = 3 }\n");
+  const Called c = faba_in(f.path, "calibrate calibration.toml --quiet --out out");
+  CHECK(c.exit == 2);
+  CHECK(c.err.find("calibration.toml:4: misspecified[0].set: swarm[0].model.sped: unknown key") !=
+        std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(f.path / "out"));
+}
+
+TEST_CASE("calibrate: one experiment has no standard error, and is too few") {
+  const TestFolder f;
+  make_design(f);
+  write_file(f.path / "calibration.toml", "study = \"study.toml\"\nmodels = [\"basic\"]\nexperiments = 1\n");
+  const Called c = faba_in(f.path, "calibrate calibration.toml --json --out out");
+  REQUIRE_MESSAGE(c.exit == 0, c.err);
+  const auto p = c.json()["models"]["basic"]["parameters"]["swarm[0].model.max_speed"];
+  CHECK(p["bias_sd"]["mean"].is_number());
+  CHECK(p["bias_sd"]["se"].is_null());
+  CHECK(c.json()["quality"] == "doubtful");
+  CHECK(c.json()["warnings"][0]["aspect"] == "experiments");
+}
+
+TEST_CASE("calibrate: a full disk, an interruption and a second process lose nothing") {
+  const TestFolder f;
+  make_design(f);
+  write_file(f.path / "calibration.toml", kCalibration);
+  REQUIRE(faba_in(f.path, "calibrate calibration.toml --quiet --out one").exit == 0);
+  // A limit of the file size has the effect of a full disk; the measurements are the largest file.
+  write_file(f.path / "full.sh", std::string("ulimit -f 100\n'") + FABA_PROGRAM +
+                                     "' calibrate calibration.toml --quiet --out full 2> full.txt\n");
+  CHECK(WEXITSTATUS(std::system(("cd '" + f.path.string() + "' && sh full.sh").c_str())) == 1);
+  CHECK(read_file(f.path / "full.txt").find("cannot be written") != std::string::npos);
+  // While the first process waits, the second one is refused; the first one is then interrupted.
+  write_file(f.path / "two.sh",
+             std::string("'") + FABA_PROGRAM +
+                 "' calibrate calibration.toml --quiet --threads 1 --out full 2> int.txt &\n"
+                 "p=$!\nuntil [ $(cat full/results/* 2> /dev/null | wc -c) -gt 200 ] || "
+                 "! kill -0 $p; do sleep 0.02; done\nkill -STOP $p\n'" +
+                 FABA_PROGRAM +
+                 "' calibrate calibration.toml --quiet --out full 2> busy.txt\n"
+                 "echo $? > busy.code\nkill -INT $p\nkill -CONT $p\nwait $p\n");
+  CHECK(WEXITSTATUS(std::system(("cd '" + f.path.string() + "' && bash -m two.sh").c_str())) == 130);
+  CHECK(read_file(f.path / "busy.code") == "11\n");
+  CHECK(read_file(f.path / "busy.txt").find("is writing to it") != std::string::npos);
+  CHECK(read_file(f.path / "int.txt").find("completed results are kept") != std::string::npos);
+  REQUIRE(faba_in(f.path, "calibrate calibration.toml --quiet --out full").exit == 0);
+  CHECK(read_file(f.path / "full/calibration.json") == read_file(f.path / "one/calibration.json"));
+  CHECK(read_file(f.path / "full/calibration.html") == read_file(f.path / "one/calibration.html"));
 }

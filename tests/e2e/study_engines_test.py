@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Studies on engines: `faba identify` and `faba compare-controllers` by plan, work and collect, and with --engine local, parallel,
-dask and slurm, give the files of one process byte by byte, and so do `faba activity` and `faba track` with several videos. With
---kills, processes of each kind are killed in the middle, twice each. A task has no process of its own: it runs in its worker, so
+"""Studies on engines: `faba identify`, `faba calibrate` and `faba compare-controllers` by plan, work and collect, and with --engine
+local, parallel, dask and slurm, give the files of one process byte by byte, and so do `faba activity` and `faba track` with several
+videos. With --kills, processes of each kind are killed in the middle, twice each, and a worker of `faba calibrate` once. A task has no process of its own: it runs in its worker, so
 that killing `faba study work` kills a task, and killing its parent process (of Dask, of GNU parallel, or the slurmd of a node)
 what started it. Engines whose packages are missing are skipped; the exit code is then 77.
 
@@ -49,7 +49,7 @@ tracks = false
 """ + WORLD
 IDENTIFY = """boundary = "box"
 look = "positions"
-simulations = SIMULATIONS
+simulations = 150
 reversal = "0.6 s"
 direction = 0
 duration = "2.4 s"
@@ -64,6 +64,15 @@ free = { "swarm[0].model.max_speed" = [1, 12] }
 type = "dipole"
 speed_sd = "10 um/s"
 free = { "swarm[0].model.speed" = ["10 um/s", "200 um/s"] }
+"""
+CALIBRATION = """study = "identify.toml"
+models = ["basic"]
+experiments = 20
+seed = 5
+[[misspecified]]
+name = "the times are exact"
+timing = "0 s"
+experiments = 4
 """
 STEER = """duration = "DURATION"
 [controller]
@@ -80,8 +89,8 @@ type = "fuzzy"
 [[controller]]
 type = "proportional"
 """
-OUTPUTS = ("identify.json", "identify.html", "best.toml", "background.png", "controllers.json", "controllers.csv", "report.html")
-VERB = {"identify": "identify", "controllers": "compare-controllers"}
+OUTPUTS = ("identify.json", "identify.html", "best.toml", "background.png", "calibration.json", "calibration.html", "controllers.json", "controllers.csv", "report.html")
+VERB = {"identify": "identify", "calibration": "calibrate", "controllers": "compare-controllers"}
 VIDEOS = ("film/video.avi", "film-2/video.avi", "film-3/video.avi")
 TRACK = ("track", *VIDEOS, "--um-per-px", "1.2", "--out", "tracks.csv", "--report", "tracks.html", "--quiet")
 ACTIVITY = ("activity", *VIDEOS, "--reversal", "0.6 s")
@@ -107,23 +116,40 @@ class Test:
     def start(self, *arguments):
         return subprocess.Popen([self.program, *map(str, arguments)], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
-    def write_studies(self, simulations, seeds, duration):
+    def write_studies(self):
         (self.folder / "film.toml").write_text(FILM)
-        (self.folder / "identify.toml").write_text(IDENTIFY.replace("SIMULATIONS", str(simulations)))
+        (self.folder / "identify.toml").write_text(IDENTIFY)
+        (self.folder / "calibration.toml").write_text(CALIBRATION)
+        for k, video in enumerate(VIDEOS):
+            done = self.faba("run", "film.toml", "--seed", 3 + k, "--quiet", "--out", pathlib.Path(video).parent)
+            assert done.returncode == 0, done.stderr
+        self.compute("identify")
+        self.compute("calibration")
+
+    def write_controllers(self, seeds, duration):
         (self.folder / "steer.toml").write_text(STEER.replace("DURATION", duration))
         (self.folder / "controllers.toml").write_text(CONTROLLERS.replace("SEEDS", str(seeds)))
-        for k, video in enumerate(VIDEOS):
-            done = self.faba("run", "film.toml", "--seed", 3 + k, "--quiet", "--force", "--out", pathlib.Path(video).parent)
-            assert done.returncode == 0, done.stderr
-        for study, verb in VERB.items():
-            done = self.faba(verb, f"{study}.toml", "--quiet", "--force", "--out", f"{study}-one")
-            assert done.returncode == 0, done.stderr
+        self.compute("controllers")
+
+    def compute(self, study):
+        """The study in one process."""
+        done = self.faba(VERB[study], f"{study}.toml", "--quiet", "--force", "--out", f"{study}-one")
+        assert done.returncode == 0, done.stderr
+
+    def table(self, out):
+        """All tasks with their results, as CSV."""
+        done = self.faba("study", "export", out, "--out", f"{out}-table.csv", "--force")
+        return (self.folder / f"{out}-table.csv").read_bytes() if done.returncode == 0 else done.stderr.encode()
 
     def equal(self, study, out, what):
-        names = [n for n in OUTPUTS if (self.folder / f"{study}-one" / n).exists()]
+        one = f"{study}-one"
+        names = [n for n in OUTPUTS if (self.folder / one / n).exists()]
         differ = [n for n in names if not (self.folder / out / n).exists()
-                  or (self.folder / out / n).read_bytes() != (self.folder / f"{study}-one" / n).read_bytes()]
-        self.check(len(names) >= 3 and not differ, f"{what}: files equal those of one process {differ or ''}")
+                  or (self.folder / out / n).read_bytes() != (self.folder / one / n).read_bytes()]
+        table = self.table(out)
+        if table != self.table(one) or b"\n" not in table:
+            differ.append("exported table")
+        self.check(len(names) >= 2 and not differ, f"{what}: files equal those of one process {differ or ''}")
 
     # --- plan, work, collect ---------------------------------------------------------------------------------------
 
@@ -142,13 +168,8 @@ class Test:
                 self.check(False, f"exit code of collect: {collected.returncode} {collected.stderr}")
                 return
         self.equal(study, out, f"plan, work, collect: {tasks} tasks in {rounds} rounds")
-        table = self.folder / f"{study}.csv"
-        self.faba("study", "export", out, "--out", table)
-        self.check(len(table.read_text().splitlines()) == tasks + 1, "export: one row for each task")
+        self.check(len(self.table(out).splitlines()) == tasks + 1, "export: one row for each task")
         self.check(self.faba("study", "export", out, "--out", f"{study}.h5").returncode == 0, "export as HDF5")
-        one = self.folder / f"{study}-one.csv"
-        self.faba("study", "export", f"{study}-one", "--out", one)
-        self.check(one.exists() and one.read_bytes() == table.read_bytes(), "export: the same table after the study of one process")
 
     def refused(self):
         """Options without their engine, and names that do not exist, are refused before anything is computed."""
@@ -240,7 +261,7 @@ class Test:
             done = self.faba(verb, f"{study}.toml", "--quiet", "--out", out, "--engine", name, *options)
             self.check(done.returncode == 0, f"{name}, {study}: {time.time() - begin:.1f} s {done.stderr}")
             self.equal(study, out, f"{name}, {study}")
-            self.check("submitted" in (self.folder / out / "attempts.csv").read_text(), f"{name}, {study}: attempts are logged")
+            self.check("submitted" in self.log(out), f"{name}, {study}: attempts are logged")
         self.engine_for_videos(name, *options)
 
     def workers(self, out):
@@ -258,21 +279,37 @@ class Test:
                 pass
         return size
 
-    def wait_for_results(self, out, bytes_):
-        for _ in range(6000):
-            if self.size_of_results(out) > bytes_ and self.workers(out):
-                return
+    def wait_for_results(self, run, out, bytes_):
+        while not (self.size_of_results(out) > bytes_ and self.workers(out)):
+            if run.poll() is not None:
+                raise RuntimeError(f"{out}: the command ended before it could be interrupted, exit code {run.returncode} {run.stderr.read()}")
             time.sleep(0.01)
-        raise RuntimeError(f"{out}: no results within a minute")
 
-    def kill_worker(self, out, bytes_):
-        while True:
-            self.wait_for_results(out, bytes_)
-            for worker in self.workers(out)[:1]:
-                try:
-                    return os.kill(worker, signal.SIGKILL)
-                except ProcessLookupError:  # it has just ended
-                    pass
+    def log(self, out):
+        return (self.folder / out / "attempts.csv").read_text()
+
+    def kill_worker(self, run, out, bytes_):
+        """Kills a worker in the middle. A worker that has just computed its last task leaves none: then another one is killed, when the
+        log has the end of the first."""
+        self.wait_for_results(run, out, bytes_)
+        before = self.log(out).count("left tasks")
+        while self.log(out).count("left tasks") == before:
+            self.wait_for_results(run, out, bytes_)
+            ends = ended(self.log(out))
+            try:
+                os.kill(self.workers(out)[0], signal.SIGKILL)
+            except (IndexError, ProcessLookupError):  # it has just ended
+                continue
+            while ended(self.log(out)) == ends and run.poll() is None:
+                time.sleep(0.01)
+
+    def kill_calibration(self, name, *options):
+        out = f"kill-calibration-{name}"
+        run = self.start("calibrate", "calibration.toml", "--quiet", "--out", out, "--engine", name, *options)
+        self.kill_worker(run, out, 100)
+        code = run.wait()
+        self.check(code == 0, f"{name}, calibration: a worker killed, exit code {code} {run.stderr.read()}")
+        self.equal("calibration", out, f"{name}, calibration, a worker killed")
 
     def kill_workers(self, name, *options):
         """A worker is killed twice; then the command, twice, and it is started again."""
@@ -280,17 +317,16 @@ class Test:
         command = ("compare-controllers", "controllers.toml", "--quiet", "--out", out, "--engine", name, *options)
         run = self.start(*command)
         for size in (20000, 200000):
-            self.kill_worker(out, size)
+            self.kill_worker(run, out, size)
         code = run.wait()
-        self.check(code == 0, f"{name}: 2 workers killed, exit code {code}")
+        self.check(code == 0, f"{name}: 2 workers killed, exit code {code} {run.stderr.read()}")
         self.equal("controllers", out, f"{name}, workers killed")
-        self.check("left tasks" in (self.folder / out / "attempts.csv").read_text(), f"{name}: the log names the attempts that left tasks")
         shutil.rmtree(self.folder / out)
         if name in ("dask", "parallel"):
             self.kill_parents(name, out, command)
         for size in (100, 20000):
             run = self.start(*command)
-            self.wait_for_results(out, size)
+            self.wait_for_results(run, out, size)
             os.kill(run.pid, signal.SIGKILL)
             run.wait()
             if name != "slurm":
@@ -300,27 +336,32 @@ class Test:
         self.check(done.returncode == 0, f"{name}: started again after two kills {done.stderr}")
         self.equal("controllers", out, f"{name}, command killed")
 
-    def started_by(self, out, but):
+    def started_by(self, run, out, but):
         """A process that started a worker which has results, none of `but`."""
-        for _ in range(6000):
+        while run.poll() is None:
             if any((self.folder / out / "results").glob("*")):
                 for parent in map(slurm_cluster.parent, self.workers(out)):
                     if parent > 1 and parent not in but:  # an orphan belongs to process 1
                         return parent
             time.sleep(0.01)
-        raise RuntimeError(f"{out}: no worker within a minute")
+        raise RuntimeError(f"{out}: the command ended before it could be interrupted, exit code {run.returncode} {run.stderr.read()}")
 
     def kill_parents(self, name, out, command):
         """The process of Dask or GNU parallel that started a worker is killed twice."""
         run = self.start(*command)
         killed = []
         for _ in range(2):
-            killed.append(self.started_by(out, killed))
+            killed.append(self.started_by(run, out, killed))
             os.kill(killed[-1], signal.SIGKILL)
         code = run.wait()
         self.check(code == 0, f"{name}: parents of {len(killed)} workers killed, exit code {code} {run.stderr.read()}")
         self.equal("controllers", out, f"{name}, parents of workers killed")
         shutil.rmtree(self.folder / out)
+
+
+def ended(log):
+    """Number of attempts whose end is in the log."""
+    return log.count("left tasks") + log.count(",complete,")
 
 
 def run_slurm(test, kills):
@@ -346,14 +387,14 @@ def twice(test):
     for out, run in zip(outs, runs):
         test.check(run.wait() == 0, f"slurm, {out}")
         test.equal("controllers", out, f"slurm, {out}")
-        test.check("left tasks" not in (test.folder / out / "attempts.csv").read_text(), f"slurm, {out}: no attempt left tasks")
+        test.check("left tasks" not in test.log(out), f"slurm, {out}: no attempt left tasks")
 
 
 def kill_node(test, cluster):
     out = "kill-node"
     run = test.start("compare-controllers", "controllers.toml", "--quiet", "--out", out, "--engine", "slurm", "--workers", 3)
     for node, size in (("node1", 100), ("node2", 2000)):
-        test.wait_for_results(out, size)
+        test.wait_for_results(run, out, size)
         cluster.kill_node(node)
         cluster.start_node(node)
     code = run.wait()
@@ -366,7 +407,7 @@ def kill_controller(test, cluster):
     command = ("compare-controllers", "controllers.toml", "--quiet", "--out", out, "--engine", "slurm", "--workers", 3)
     for size in (100, 2000):
         run = test.start(*command)
-        test.wait_for_results(out, size)
+        test.wait_for_results(run, out, size)
         cluster.kill_controller()
         time.sleep(1)
         run.send_signal(signal.SIGTERM)
@@ -388,7 +429,8 @@ def main():
     wanted = lambda name: not options.only or name in options.only
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         test = Test(options.program.resolve(), folder)
-        test.write_studies(150, 60, "3 s")
+        test.write_studies()
+        test.write_controllers(60, "3 s")
         test.videos_in_one_process()
         if wanted("hand"):
             for study in VERB:
@@ -396,7 +438,7 @@ def main():
             test.elsewhere()
             test.refused()
         if options.kills:  # long enough to be killed in the middle
-            test.write_studies(150, 400, "100 s")
+            test.write_controllers(400, "100 s")
         for name, extra in (("local", ("--workers", 2)), ("parallel", ("--workers", 2)), ("dask", ("--workers", 3))):
             if not wanted(name):
                 continue
@@ -406,6 +448,8 @@ def main():
             test.engine(name, *extra)
             if options.kills:
                 test.kill_workers(name, *extra)
+            if options.kills and name == "parallel":
+                test.kill_calibration(name, *extra)
         if wanted("slurm"):
             run_slurm(test, options.kills)
     for what in test.failures:

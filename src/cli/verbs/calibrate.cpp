@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 
 #include "cli/command_line.h"
 #include "cli/options/study.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
 #include "cli/quality_text.h"
+#include "core/counted.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "study/calibrate/calibration.h"
@@ -16,14 +18,15 @@ namespace faba::cli {
 namespace {
 
 void print_coverage(const ModelCalibration& m) {
-  fmt::print("{}: {} experiments\n  {:<28} {:>15} {:>15} {:>15} {:>15}  {:>9}  {:>14}\n", m.name,
-             m.experiments, "coverage of the intervals of", "50 %", "80 %", "90 %", "95 %", "ranks p",
-             "bias/sd");
+  fmt::print("{}: {}\n  {:<28} {:>15} {:>15} {:>15} {:>15}  {:>9}  {:>14}\n", m.name,
+             counted(std::uint64_t(m.experiments), "experiment"), "coverage of the intervals of", "50 %",
+             "80 %", "90 %", "95 %", "ranks p", "bias/sd");
   for (const ParameterCalibration& p : m.parameters) {
     fmt::print("  {:<28}", p.parameter.path);
     for (const Coverage& c : p.coverage)
       fmt::print(" {:>15}", fmt::format("{:.1f} %{}", 100 * c.fraction(), c.within() ? "" : " (outside)"));
-    fmt::print("  {:>9.2g}  {:>14}\n", p.ranks.p, fmt::format("{:+.2f} +- {:.2f}", p.bias, p.bias_se));
+    const std::string error = std::isfinite(p.bias_se) ? fmt::format(" +- {:.2f}", p.bias_se) : "";
+    fmt::print("  {:>9.2g}  {:>14}\n", p.ranks.p, fmt::format("{:+.2f}{}", p.bias, error));
   }
   if (!m.parameters.empty())
     fmt::print("  all parameters together (TARP): largest difference {:.3f}, p = {:.2g}\n", m.tarp.largest,

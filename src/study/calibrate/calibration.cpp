@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/counted.h"
 #include "core/error.h"
 #include "core/random/distributions.h"
 #include "study/calibrate/true_experiment.h"
@@ -13,6 +14,8 @@
 
 namespace faba {
 namespace {
+
+constexpr double kMainLevel = 0.9;  // of kCoverageLevels
 
 using Design = std::vector<ResponseVideo>;
 
@@ -51,7 +54,7 @@ ParameterCalibration parameter_of(const FreeParameter& parameter, std::vector<Ca
   for (const double level : kCoverageLevels) p.coverage.push_back(coverage_of(ranks, level));
   p.ranks = rank_histogram(ranks);
   p.bias = mean(z);
-  p.spread = sample_sd(z);
+  p.spread = z.size() > 1 ? sample_sd(z) : kNaN;
   p.bias_se = p.spread / std::sqrt(double(z.size()));
   p.relative_bias = parameter.low > 0 ? median(relative) : kNaN;
   p.relative_error = parameter.low > 0 ? median(error) : kNaN;
@@ -157,9 +160,27 @@ Round calibration_round(const CalibrationStudy& study, const std::filesystem::pa
   return experiments_of(study, stored_responses(study.design, measured), stop);
 }
 
+namespace {
+
+// With few experiments all of them may be inside of a calibrated interval.
+void warn_few(const ModelCalibration& m, std::vector<Warning>& out) {
+  if (m.parameters.empty()) return;
+  for (const Coverage& o : m.parameters.front().coverage)
+    if (o.level == kMainLevel && o.high == o.experiments)
+      out.push_back(
+          {"experiments",
+           fmt::format("with {} of {}, {:g} % intervals that are too wide cannot be detected",
+                       counted(std::size_t(o.experiments), "experiment"), m.name, 100 * o.level),
+           fmt::format("right intervals contain the true value in {} to {} of them (99 %)", o.low, o.high),
+           "increase experiments; the default is 100", Quality::doubtful});
+}
+
+}  // namespace
+
 std::vector<Warning> calibration_warnings(const StudyCalibration& c) {
   std::vector<Warning> out;
-  for (const ModelCalibration& m : c.models)
+  for (const ModelCalibration& m : c.models) {
+    warn_few(m, out);
     for (const ParameterCalibration& p : m.parameters)
       for (const Coverage& o : p.coverage)
         if (!o.within())
@@ -169,6 +190,7 @@ std::vector<Warning> calibration_warnings(const StudyCalibration& c) {
                          fmt::format("{} of {} contain the true value; {} to {} are expected (99 %)",
                                      o.inside, o.experiments, o.low, o.high),
                          "increase simulations, or give narrower prior ranges", Quality::doubtful});
+  }
   for (const SelectionCalibration& s : c.kinds)
     if (s.failed > 0)
       out.push_back(

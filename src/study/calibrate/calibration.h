@@ -25,7 +25,8 @@ struct ParameterCalibration {
   std::vector<Coverage> coverage = {};  ///< at kCoverageLevels
   RankHistogram ranks = {};
   /// Posterior mean minus truth in units of the posterior's standard deviation: mean over the experiments
-  /// with standard error, and standard deviation, which is 1 for a calibrated normal posterior.
+  /// with standard error, and standard deviation, which is 1 for a calibrated normal posterior. The last two
+  /// are NaN for one experiment.
   double bias = 0, bias_se = 0, spread = 0;
   /// Median over the experiments of median / truth - 1, and of its absolute value; NaN if the truth can be 0.
   double relative_bias = 0, relative_error = 0;
@@ -75,7 +76,7 @@ std::optional<StudyCalibration> calibrate(const CalibrationStudy& study, ResultS
 Round calibration_round(const CalibrationStudy& study, const std::filesystem::path& measured,
                         const std::function<bool()>& stop);
 
-/// The parameters whose intervals are not calibrated, and experiments that failed.
+/// The parameters whose intervals are not calibrated, too few experiments, and experiments that failed.
 std::vector<Warning> calibration_warnings(const StudyCalibration& c);
 
 }  // namespace faba

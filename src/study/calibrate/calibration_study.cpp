@@ -10,6 +10,7 @@
 #include "app/scenario/file_kind.h"
 #include "core/error.h"
 #include "core/hash.h"
+#include "study/identify/families/model_family.h"
 
 namespace faba {
 namespace {
@@ -91,9 +92,17 @@ std::vector<std::size_t> named(const std::vector<std::string>& names, const Iden
   return found;
 }
 
+void check_aspects(const std::vector<std::string>& aspects, const Node& n) {
+  for (const std::string& aspect : aspects)
+    if (std::find(kFamilyAspects.begin(), kFamilyAspects.end(), aspect) == kFamilyAspects.end())
+      n.child("aspects").fail(fmt::format("unknown aspect \"{}\"; it must be one of {}", aspect,
+                                          fmt::join(kFamilyAspects, ", ")));
+}
+
 ExperimentKind misspecified_kind(const Node& n, const CalibrationStudy& study, const CalibrationFile& top) {
   const MisspecifiedFile f = MisspecifiedFile::schema().parse(n, {"set"});
   if (f.name.empty()) n.fail("key \"name\" is missing; name the difference: name = \"the cells tumble\"");
+  check_aspects(f.aspects, n);
   ExperimentKind k{.name = f.name,
                    .experiments = f.experiments.value_or(top.experiments),
                    .true_models = f.true_models.empty()
@@ -103,7 +112,8 @@ ExperimentKind misspecified_kind(const Node& n, const CalibrationStudy& study, c
                    .field_factor = f.field_factor,
                    .timing_s = f.timing,
                    .aspects = f.aspects,
-                   .misspecified = true};
+                   .misspecified = true,
+                   .where = n.where("set")};
   if (n.has("set")) {
     if (!n.child("set").json->is_object()) n.child("set").fail("must be a table of paths and values");
     for (const auto& [path, value] : n.child("set").json->items()) k.set.emplace_back(path, value);
@@ -152,7 +162,10 @@ CalibrationStudy read_calibration_study(const std::filesystem::path& file, bool 
   CalibrationStudy study;
   CalibrationFile f;
   std::filesystem::path design = file;
-  if (file_kind(root) != FileKind::identify_study) {
+  const std::optional<FileKind> kind = file_kind(root);
+  // Without candidates the study is incomplete; its reader asks for them.
+  const bool is_design = kind == FileKind::identify_study || kind == FileKind::activity_study;
+  if (!is_design) {
     require_kind(root, FileKind::calibration_study);
     f = CalibrationFile::schema().parse(root, {"misspecified"});
     if (f.study.empty())
@@ -167,7 +180,7 @@ CalibrationStudy read_calibration_study(const std::filesystem::path& file, bool 
   study.designed_by = design.filename().string();
   study.seed = f.seed;
   study.title = f.title.empty() ? fmt::format("Calibration of {}", design.stem().string()) : f.title;
-  if (file_kind(root) == FileKind::identify_study)
+  if (is_design)
     read_kinds(Node(Document{}), f, study);
   else
     read_kinds(root, f, study);

@@ -20,6 +20,7 @@ struct ExperimentKind {
   std::vector<std::pair<std::string, Json>> set = {};  ///< values of the true scenario, by path
   std::vector<std::string> aspects = {};               ///< of warnings that name the difference
   bool misspecified = false;
+  std::string where = {};  ///< of `set` in the calibration file, for messages
 };
 
 /// Configuration of `faba calibrate`: a study for `faba identify`, whose design is simulated with true

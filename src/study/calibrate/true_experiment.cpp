@@ -32,7 +32,7 @@ ModelFamily difference_of(const ExperimentKind& kind) {
   f.field_factor = kind.field_factor;
   f.edit = [&kind](Document& d) {
     if (kind.second_swarm > 0) divide_swarm(d, kind.second_swarm);
-    for (const auto& [path, value] : kind.set) d.set(path, value, kind.name + ".set");
+    for (const auto& [path, value] : kind.set) d.set(path, value, kind.where);
     release_opposite(d.root["swarm"]);
   };
   return f;

@@ -33,6 +33,10 @@ struct SlurmTask {
   int absences = 0;
 };
 
+// Reason of a job that Slurm requeues and does not start again, for example when a controller that was killed
+// has assigned the number of a job that a node still has.
+constexpr std::string_view kLaunchFailed = "launch failed requeued held";
+
 class SlurmEngine final : public Engine {
  public:
   SlurmEngine(EngineSettings settings, WorkerCommand worker)
@@ -105,7 +109,13 @@ class SlurmEngine final : public Engine {
     std::error_code ec;
     if (fs::exists(t.results, ec)) return {t.id, fmt::format("job {}: exit code 0", job), 0};
     if (squeue.exit != 0) return {};
-    const bool queued = ("\n" + squeue.out).find("\n" + job + " ") != std::string::npos;
+    const std::string jobs = "\n" + squeue.out;
+    const auto at = jobs.find("\n" + job + " ");
+    const bool queued = at != std::string::npos;
+    if (queued && jobs.substr(at + 1, jobs.find('\n', at + 1) - at - 1).ends_with(kLaunchFailed)) {
+      run_command({"scancel", job});
+      return {t.id, fmt::format("job {}: {}", job, kLaunchFailed), -1};
+    }
     t.absences = queued ? 0 : t.absences + 1;
     if (t.absences < kAbsences) return {};
     return {t.id, fmt::format("job {}: not in the queue any more", job), -1};

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -26,6 +27,11 @@ struct ModelFamily {
   /// EpisodeStatistics::of_drift(). 0: none.
   double drift_px_s = 0;
 };
+
+/// Aspects of all families.
+inline constexpr std::array kFamilyAspects = {
+    "turning",  "motile_fraction", "speed_spread", "populations", "responsive_fraction",
+    "polarity", "field_strength",  "timing",       "drift"};
 
 /// Divides the cells of the first swarm of a scenario: `fraction` of them become a second swarm.
 void divide_swarm(Document& scenario, double fraction);

@@ -31,7 +31,7 @@ Json calibrated_parameter_json(const ParameterCalibration& p) {
          {"range", {p.parameter.low, p.parameter.high}},
          {"coverage", Json::array()},
          {"ranks", ranks_json(p.ranks)},
-         {"bias_sd", {{"mean", p.bias}, {"se", p.bias_se}, {"sd", p.spread}}},
+         {"bias_sd", {{"mean", p.bias}, {"se", number_or_null(p.bias_se)}, {"sd", number_or_null(p.spread)}}},
          {"relative_bias", number_or_null(p.relative_bias)},
          {"relative_error", number_or_null(p.relative_error)},
          {"fraction_of_range", p.fraction_of_range}};

@@ -47,7 +47,9 @@ std::string coverage_row(const ModelCalibration& m, const ParameterCalibration& 
   for (const Coverage& c : p.coverage) cells.push_back(coverage_cell(c));
   cells.push_back(
       fmt::format("{} of {}<small>p = {:.2g}</small>", p.ranks.outside(), p.ranks.counts.size(), p.ranks.p));
-  cells.push_back(fmt::format("{:+.2f} ± {:.2f}<small>s.d. {:.2f}</small>", p.bias, p.bias_se, p.spread));
+  cells.push_back(std::isfinite(p.spread)
+                      ? fmt::format("{:+.2f} ± {:.2f}<small>s.d. {:.2f}</small>", p.bias, p.bias_se, p.spread)
+                      : fmt::format("{:+.2f}", p.bias));
   cells.push_back(std::isfinite(p.relative_bias) ? fmt::format("{:+.1f} %<small>error {:.1f} %</small>",
                                                                100 * p.relative_bias, 100 * p.relative_error)
                                                  : "–");
