@@ -40,10 +40,14 @@ void print_selection(const StudyCalibration& c) {
   fmt::print("{:<{}}  {:>9}  {:>9}  {:>11}  {:>11}  {:>22}\n", "experiments", width, "best true", "clear",
              "clear wrong", "false clear", "95 % interval of it");
   for (const SelectionCalibration& s : c.kinds) {
-    const auto text = [](const ExperimentCount& n) { return fmt::format("{}/{}", n.count, n.of); };
-    fmt::print("{:<{}}  {:>9}  {:>9}  {:>11}  {:>11}  {:>22}\n", s.kind, width, text(s.best_is_true),
-               text(s.clear), text(s.wrong_clear), text(s.false_clear),
-               fmt::format("{:.1f} to {:.1f} %", 100 * s.false_clear.ci95[0], 100 * s.false_clear.ci95[1]));
+    const auto text = [](const ExperimentCount& n) {
+      return n.of > 0 ? fmt::format("{}/{}", n.count, n.of) : "-";
+    };
+    const ExperimentCount& clear = s.false_clear;
+    fmt::print(
+        "{:<{}}  {:>9}  {:>9}  {:>11}  {:>11}  {:>22}\n", s.kind, width, text(s.best_is_true), text(s.clear),
+        text(s.wrong_clear), text(clear),
+        clear.of > 0 ? fmt::format("{:.1f} to {:.1f} %", 100 * clear.ci95[0], 100 * clear.ci95[1]) : "-");
   }
 }
 

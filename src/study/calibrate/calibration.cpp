@@ -103,7 +103,8 @@ bool contains_truth(const CalibrationRecord& r) {
   return e.low90 <= e.truth && e.truth <= e.high90;
 }
 
-SelectionCalibration selection_of(const ExperimentKind& kind, const std::vector<CalibrationRecord>& records) {
+SelectionCalibration selection_of(const ExperimentKind& kind, bool several,
+                                  const std::vector<CalibrationRecord>& records) {
   using Record = CalibrationRecord;
   SelectionCalibration s{
       .kind = kind.name, .misspecified = kind.misspecified, .experiments = kind.experiments};
@@ -111,6 +112,10 @@ SelectionCalibration selection_of(const ExperimentKind& kind, const std::vector<
     s.failed += r.failed;
     s.sampled_again += int(r.samples) - 1;
   }
+  s.named = count_of(records, [](const Record& r) { return r.named > 0; });
+  s.warned = count_of(records, [](const Record& r) { return r.warnings > 0; });
+  s.inside = count_of(records, contains_truth);
+  if (!several) return s;
   const auto clear = [](const Record& r) { return r.evidence == 2; };
   const auto wrong = [&](const Record& r) { return clear(r) && r.best != r.true_model; };
   const auto confident = [&](const Record& r) { return wrong(r) || (clear(r) && !contains_truth(r)); };
@@ -120,9 +125,6 @@ SelectionCalibration selection_of(const ExperimentKind& kind, const std::vector<
   s.wrong_clear = count_of(records, wrong);
   s.false_clear = count_of(records, confident);
   s.false_clear_unnamed = count_of(records, [&](const Record& r) { return confident(r) && r.named == 0; });
-  s.named = count_of(records, [](const Record& r) { return r.named > 0; });
-  s.warned = count_of(records, [](const Record& r) { return r.warnings > 0; });
-  s.inside = count_of(records, contains_truth);
   return s;
 }
 
@@ -140,7 +142,8 @@ std::optional<StudyCalibration> analysed(const CalibrationStudy& study, const Ro
   auto next = c.records.begin();
   for (const ExperimentKind& kind : study.kinds) {
     const auto end = next + kind.experiments;
-    if (kind.experiments > 0) c.kinds.push_back(selection_of(kind, {next, end}));
+    if (kind.experiments > 0)
+      c.kinds.push_back(selection_of(kind, study.design.candidates.size() > 1, {next, end}));
     next = end;
   }
   return c;
@@ -166,7 +169,7 @@ namespace {
 void warn_few(const ModelCalibration& m, std::vector<Warning>& out) {
   if (m.parameters.empty()) return;
   for (const Coverage& o : m.parameters.front().coverage)
-    if (o.level == kMainLevel && o.high == o.experiments)
+    if (o.level == kMainLevel && !o.tells())
       out.push_back(
           {"experiments",
            fmt::format("with {} of {}, {:g} % intervals that are too wide cannot be detected",

@@ -46,6 +46,7 @@ struct SelectionCalibration {
   std::string kind;
   bool misspecified = false;
   int experiments = 0, failed = 0, sampled_again = 0;
+  /// These and the next three are empty with one candidate: there is no selection.
   ExperimentCount best_is_true = {}, clear = {}, weak = {};
   /// Clear evidence for another model than the true one.
   ExperimentCount wrong_clear = {};

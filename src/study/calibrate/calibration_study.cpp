@@ -62,7 +62,7 @@ struct MisspecifiedFile {
         .add("second_swarm", &MisspecifiedFile::second_swarm,
              {.min = 0, .max = 0.9, .doc = "Fraction of the cells that become swarm[1], a copy of swarm[0]"})
         .add("field_factor", &MisspecifiedFile::field_factor,
-             {.min = 0, .max = 100, .doc = "True field strength over the field strength of the study"})
+             {.min = 1e-3, .max = 100, .doc = "True field strength over the field strength of the study"})
         .add("timing", &MisspecifiedFile::timing,
              {.unit = "s",
               .min = 0,

@@ -12,6 +12,8 @@ struct Coverage {
   int low = 0, high = 0;  ///< 99 % range of `inside` for calibrated intervals
   double fraction() const { return double(inside) / double(experiments); }
   bool within() const { return inside >= low && inside <= high; }
+  /// Whether there are enough experiments to detect intervals that are too narrow or too wide.
+  bool tells() const { return low > 0 && high < experiments; }
   std::array<double, 2> ci95() const;  ///< of the fraction (Clopper and Pearson)
 };
 

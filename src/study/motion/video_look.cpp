@@ -20,12 +20,14 @@ double imitated_px_by(const FrameChange& change) {
   return change.gradient > 0 ? std::fabs(change.mean) / std::sqrt(change.gradient) : 0;
 }
 
-bool too_small(const GrayF& frame) { return frame.width < 3 || frame.height < 3; }
+bool usable(const std::shared_ptr<const GrayF>& frame) {
+  return frame && frame->width >= 3 && frame->height >= 3;
+}
 
 }  // namespace
 
 void LightChange::add(std::shared_ptr<const GrayF> frame) {
-  if (!frame || too_small(*frame)) return;
+  if (!usable(frame)) return;
   if (before_) {
     imitated_px_ += imitated_px_by(frame_change(*before_, *frame));
     ++pairs_;
@@ -35,20 +37,20 @@ void LightChange::add(std::shared_ptr<const GrayF> frame) {
 
 double LightChange::imitated_px() const { return pairs_ > 0 ? imitated_px_ / pairs_ : 0; }
 
-void VideoLook::add(const GrayF& frame) {
-  if (too_small(frame)) return;
-  if (before_.empty()) {
-    before_ = frame;
+void VideoLook::add(std::shared_ptr<const GrayF> frame) {
+  if (!usable(frame)) return;
+  if (!before_) {
+    before_ = std::move(frame);
     return;
   }
-  const FrameChange now = frame_change(before_, frame);
-  const double sd = picture_noise(frame);
+  const FrameChange now = frame_change(*before_, *frame);
+  const double sd = picture_noise(*frame);
   noise_ += sd * sd;
   change_ += now.squared;
   gradient_ += now.slope;
   imitated_px_ += imitated_px_by(now);
   ++pairs_;
-  before_ = frame;
+  before_ = std::move(frame);
 }
 
 double VideoLook::noise() const { return std::sqrt(noise_ / pairs_); }

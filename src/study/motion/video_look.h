@@ -27,8 +27,8 @@ class LightChange {
 /// Properties of the frames of a video on which the optical flow of equal motion depends.
 class VideoLook {
  public:
-  /// Frames in sequence; those smaller than 3 x 3 px, as of flows from a file, are ignored.
-  void add(const GrayF& frame);
+  /// Frames in sequence; none, as of flows from a file, and those smaller than 3 x 3 px are ignored.
+  void add(std::shared_ptr<const GrayF> frame);
 
   bool empty() const { return pairs_ == 0; }
   /// Standard deviation of the noise, grey levels.
@@ -40,7 +40,7 @@ class VideoLook {
   double imitated_px() const;
 
  private:
-  GrayF before_;
+  std::shared_ptr<const GrayF> before_;
   double noise_ = 0;                  ///< variances, summed over pairs
   double change_ = 0, gradient_ = 0;  ///< mean squares of the change and its gradient, summed over pairs
   double imitated_px_ = 0;

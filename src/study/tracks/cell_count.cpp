@@ -66,11 +66,11 @@ FrameInspector CellCount::count() {
   return {[this](double) { return frames_++ % step_ == 0; },
           [this](const GrayF& frame) -> std::function<void()> {
             std::size_t& spots = counts_.emplace_back();
-            return [this, &spots, frame] { spots = spots_in(frame); };
+            return [this, &spots, kept = std::make_shared<GrayF>(frame)] { spots = spots_in(*kept); };
           }};
 }
 
-std::size_t CellCount::spots_in(GrayF frame) const {
+std::size_t CellCount::spots_in(GrayF& frame) const {
   make_finite(frame);
   if (detector_) return detector_->find(frame).size();
   const Detector of_frame(spatial_background(frame, survey_.smoothing_px),

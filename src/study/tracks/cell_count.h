@@ -35,7 +35,7 @@ class CellCount {
   std::optional<double> mean() const;
 
  private:
-  std::size_t spots_in(GrayF frame) const;
+  std::size_t spots_in(GrayF& frame) const;  ///< replaces values that are not finite
 
   std::filesystem::path video_;
   VideoPart part_;

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/statistics.h"
+#include "vision/foreground/kernels/temporal_median.h"
 #include "vision/image/kernels/smoothing.h"
 
 namespace faba {
@@ -81,13 +82,8 @@ Background BackgroundSampler::background(Pool& pool) const {
   b.level = b.noise_sd = GrayF(w, h);
   b.frames = int(kept_.size());
   pool.for_blocks(b.level.px.size(), kPixelsPerBlock, [&](std::size_t begin, std::size_t end) {
-    std::vector<float> values(kept_.size());
-    for (std::size_t i = begin; i < end; ++i) {
-      for (std::size_t k = 0; k < kept_.size(); ++k) values[k] = kept_[k].px[i];
-      const RobustSpread<float> s = robust_spread_low(values);
-      b.level.px[i] = s.median;
-      b.noise_sd.px[i] = s.sd;
-    }
+    temporal_medians(kept_, begin, end, b.level, b.noise_sd);
+    for (std::size_t i = begin; i < end; ++i) b.noise_sd.px[i] *= float(kMadToSd);
   });
   b.noise_sd = smoothed(b.noise_sd, kNoiseSmoothing);
   for (float& v : b.noise_sd.px) v = std::max(v, kMinNoise);

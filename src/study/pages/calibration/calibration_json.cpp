@@ -11,8 +11,12 @@ namespace {
 Json number_or_null(double v) { return std::isfinite(v) ? Json(v) : Json(); }
 
 Json coverage_json(const Coverage& c) {
-  return {{"level", c.level}, {"inside", c.inside},        {"experiments", c.experiments},
-          {"ci95", c.ci95()}, {"band99", {c.low, c.high}}, {"calibrated", c.within()}};
+  return {{"level", c.level},
+          {"inside", c.inside},
+          {"experiments", c.experiments},
+          {"ci95", c.ci95()},
+          {"band99", {c.low, c.high}},
+          {"calibrated", c.within() && !c.tells() ? Json() : Json(c.within())}};
 }
 
 Json ranks_json(const RankHistogram& h) {
@@ -40,7 +44,8 @@ Json calibrated_parameter_json(const ParameterCalibration& p) {
 }
 
 Json count_json(const ExperimentCount& n) {
-  return {{"count", n.count}, {"of", n.of}, {"ci95", n.of > 0 ? Json(n.ci95) : Json()}};
+  return {
+      {"count", n.of > 0 ? Json(n.count) : Json()}, {"of", n.of}, {"ci95", n.of > 0 ? Json(n.ci95) : Json()}};
 }
 
 Json selection_json(const SelectionCalibration& s) {

@@ -22,8 +22,9 @@ std::string coverages_of(const nlohmann::json& models) {
       if (p.at("nuisance").get<bool>()) continue;
       for (const auto& c : p.at("coverage"))
         if (c.at("level") == 0.9)
-          out += fmt::format("{}{}: {} in {} of {}", out.empty() ? "" : ", ", model, path,
-                             c.at("inside").get<int>(), c.at("experiments").get<int>());
+          out += fmt::format("{}{}: {} in {} of {} (right intervals: {} to {})", out.empty() ? "" : ", ",
+                             model, path, c.at("inside").get<int>(), c.at("experiments").get<int>(),
+                             c.at("band99")[0].get<int>(), c.at("band99")[1].get<int>());
     }
   return out;
 }

@@ -16,23 +16,35 @@ namespace {
 
 std::string percent(double fraction) { return fmt::format("{:.1f} %", 100 * fraction); }
 
+std::string verdict(const Coverage& c) {
+  const std::string range = fmt::format("right intervals contain it in {} to {} (99 %)", c.low, c.high);
+  if (!c.within())
+    return fmt::format("The intervals are too {}: {}.", c.inside < c.low ? "narrow" : "wide", range);
+  return c.tells() ? fmt::format("This agrees with right intervals: {}.", range)
+                   : fmt::format("These are too few experiments for a test: {}.", range);
+}
+
 std::string calibration_lead(const StudyCalibration& c) {
   std::string out;
   for (const ModelCalibration& m : c.models) {
     if (m.parameters.empty()) continue;
     const ParameterCalibration& p = m.parameters.front();
-    const auto at = [&](double level) {
-      return *std::find_if(p.coverage.begin(), p.coverage.end(),
-                           [&](const Coverage& o) { return o.level == level; });
-    };
+    const Coverage& main =
+        *std::ranges::find_if(p.coverage, [](const Coverage& o) { return o.level == 0.9; });
     out += fmt::format(
-        "<p class=\"lead\">{}, {}: the 90 % interval of {} contains the true value in {} of {} experiments "
-        "({}), the 50 % interval in {}.</p>\n",
-        escape_markup(m.name), c.study.design.look == Look::video ? "rendered" : "positions",
-        escape_markup(p.parameter.path), at(0.9).inside, at(0.9).experiments, percent(at(0.9).fraction()),
-        percent(at(0.5).fraction()));
+        "<p class=\"lead\">{}: the 90 % interval of {} contains the true value in {} of {} experiments ({}). "
+        "{}</p>\n",
+        escape_markup(m.name), escape_markup(p.parameter.path), main.inside, main.experiments,
+        percent(main.fraction()), verdict(main));
   }
-  return out;
+  if (out.empty()) return out;
+  return out + fmt::format(
+                   "<p class=\"note\">This is an average over the prior ranges, for simulated cells. {}"
+                   "</p>\n",
+                   c.study.design.look == Look::video
+                       ? "The experiments were rendered to videos and measured."
+                       : "The statistics follow from the positions of the cells: the method is "
+                         "tested, the measurement of videos is not.");
 }
 
 // Coverage with a mark outside of the 99 % range.
