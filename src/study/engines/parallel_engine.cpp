@@ -23,6 +23,7 @@ constexpr int kSshFailed = 255;  // exit code of ssh when the host is not reache
 /// One call of GNU parallel with the attempts of one submission.
 struct ParallelCall {
   pid_t process = -1;
+  fs::path list;                   ///< tasks and files of each attempt
   fs::path joblog;                 ///< one line for each attempt that ended
   fs::path log;                    ///< messages of GNU parallel and ssh
   std::vector<std::uint64_t> ids;  ///< of the attempts, in their order
@@ -57,7 +58,8 @@ class ParallelEngine final : public Engine {
   bool submit(std::span<const Attempt> attempts) override {
     ParallelCall call;
     const std::string name = attempts.front().results.stem().string() + "-parallel";
-    const fs::path jobs = worker_.directory / study_files::kJobs, list = jobs / (name + ".list");
+    const fs::path jobs = worker_.directory / study_files::kJobs;
+    call.list = jobs / (name + ".list");
     call.joblog = jobs / (name + ".joblog");
     call.log = jobs / (name + ".log");
     std::string lines;
@@ -66,8 +68,8 @@ class ParallelEngine final : public Engine {
       call.ids.push_back(a.id);
     }
     call.ended.resize(attempts.size());
-    write_file(list, lines);
-    call.process = start_process(words(list, call.joblog), {.log = call.log});
+    write_file(call.list, lines);
+    call.process = start_process(words(call.list, call.joblog), {.log = call.log});
     calls_.push_back(std::move(call));
     return true;
   }
@@ -79,7 +81,8 @@ class ParallelEngine final : public Engine {
       read_joblog(call, ends);
       if (!over) continue;
       for (std::size_t k = 0; k < call.ids.size(); ++k)
-        if (!call.ended[k]) ends.push_back({call.ids[k], "GNU parallel has ended", -1});
+        if (!call.ended[k]) ends.push_back({call.ids[k], over_text(call), -1});
+      remove_files(call);
       call.process = -1;
     }
     std::erase_if(calls_, [](const ParallelCall& c) { return c.process < 0; });
@@ -90,11 +93,27 @@ class ParallelEngine final : public Engine {
   void cancel() override {
     for (int times = 0; times < 2; ++times)
       for (const ParallelCall& call : calls_) kill(call.process, SIGTERM);
-    for (const ParallelCall& call : calls_) end_child(call.process, 2);
+    for (const ParallelCall& call : calls_) {
+      end_child(call.process, 2);
+      remove_files(call);
+    }
     calls_.clear();
   }
 
  private:
+  static std::string over_text(const ParallelCall& call) {
+    const std::string message = last_message(call.log);
+    return message.empty()
+               ? "GNU parallel has ended"
+               : fmt::format("GNU parallel has ended ({}), see {}", message, call.log.string());
+  }
+
+  static void remove_files(const ParallelCall& call) {
+    std::error_code ec;
+    for (const fs::path& file : {call.list, call.joblog}) fs::remove(file, ec);
+    remove_if_empty(call.log);
+  }
+
   // "4/user@host" has four workers; a host without a number has one.
   unsigned slots_of_hosts() const {
     unsigned sum = 0;
@@ -106,12 +125,11 @@ class ParallelEngine final : public Engine {
   }
 
   std::vector<std::string> words(const fs::path& list, const fs::path& joblog) const {
-    std::string command;
+    std::string command = "exec 2>> {3}; ";
     for (const std::string& line : settings_.environment) command += line + "; ";
     const Attempt pattern{0, "{1}", "{2}", "{3}"};
     for (const std::string& word : worker_.words(pattern))
       command += (word.starts_with("{") ? word : shell_word(word)) + " ";
-    command += "2> {3}";
     // setpriv: without this command, GNU parallel ends its jobs and itself.
     std::vector<std::string> w{"setpriv",
                                "--pdeathsig",

@@ -81,6 +81,11 @@ std::string last_message(const std::filesystem::path& log) {
   return last;
 }
 
+void remove_if_empty(const std::filesystem::path& log) {
+  std::error_code ec;
+  if (std::filesystem::file_size(log, ec) == 0 && !ec) std::filesystem::remove(log, ec);
+}
+
 bool program_exists(const std::string& name) {
   return run_command({"sh", "-c", "command -v " + shell_word(name)}).exit == 0;
 }

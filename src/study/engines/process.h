@@ -36,6 +36,9 @@ CommandOutput run_command(const std::vector<std::string>& words, bool with_error
 /// The last line of a log that is not empty and not a warning.
 std::string last_message(const std::filesystem::path& log);
 
+/// Removes a log without messages.
+void remove_if_empty(const std::filesystem::path& log);
+
 /// Whether a program is found by PATH.
 bool program_exists(const std::string& name);
 

@@ -61,7 +61,7 @@ struct Study {
   Round round{"tasks", 50, {}};
   TestEngine tasks{store.key(round), 1};  ///< copied for each run
   bool run() {
-    EngineRun::Reports reports{[](auto, auto) {}, [] { return false; }, [](const std::string&) {}};
+    EngineRun::Reports reports{[](auto, auto, const auto&) {}, [] { return false; }, [](const std::string&) {}};
     EngineRun all(std::make_unique<TestEngine>(tasks), "test", folder.path(), std::move(reports));
     return all(round, store);
   }
@@ -139,7 +139,7 @@ TEST_CASE("a round whose every second task has a result is computed, although li
   const std::uint64_t key = store.key(round);
   const std::vector<double> value{1};
   for (std::uint64_t i = 0; i < round.size; i += 2) store.add({key, i}, value, 1e-6);
-  EngineRun::Reports reports{[](auto, auto) {}, [] { return false; }, [](const std::string&) {}};
+  EngineRun::Reports reports{[](auto, auto, const auto&) {}, [] { return false; }, [](const std::string&) {}};
   EngineRun run(std::make_unique<TestEngine>(key, 1), "test", folder.path(), std::move(reports));
   CHECK(run(round, store));
   CHECK(store.size() == round.size);
