@@ -218,7 +218,7 @@ void EngineRun::take_left(State& s, const Running& ended, const AttemptEnd& how)
                                                 : "the worker ended with " + joined(how.text(), message);
     const bool given_up = times >= kMostAttempts;
     if (failures_now > 0 || given_up)
-      log_.add(name, given_up ? "task failed" : "task failed, is tried again",
+      log_.add(name, given_up ? "task failed" : "task error",
                std::to_string(s.planned.first + task), reason);
     if (given_up) {
       s.failed[task] = reason;

@@ -55,7 +55,8 @@ std::vector<SlurmJob> squeue_jobs(const std::string& answer) {
 
 std::pair<std::string, int> end_of_job(const SlurmJob& job, double time) {
   if (job.state == "TIMEOUT")
-    return {fmt::format("reached its time limit ({:g} min in [engine]); set a longer time", time / 60), -1};
+    return {fmt::format("reached its time limit (time of [engine] is {:g} min); set a longer time", time / 60),
+            -1};
   if (job.state == "OUT_OF_MEMORY")
     return {"exceeded its memory limit; set more in options of [engine], such as \"--mem=4G\"", -1};
   if (job.state == "FAILED" || job.state == "COMPLETED") return {end_text(job.exit), std::max(-1, job.exit)};
@@ -96,10 +97,10 @@ std::string refusal(const std::string& answer) {
       if (line.starts_with(prefix)) line.erase(0, prefix.size());
     if (!line.empty()) text += (text.empty() ? "" : "; ") + line;
   }
-  const std::string key = contains(text, "partition") ? "partition"
-                          : contains(text, "ccount")  ? "account"
-                          : contains(text, "time")    ? "time"
-                                                      : "options";
+  const std::string key = contains(text, "ccount")      ? "account"
+                          : contains(text, "partition") ? "partition"
+                          : contains(text, "time")      ? "time"
+                                                        : "options";
   return fmt::format("sbatch refuses the jobs: {}; correct {} in [engine]", text, key);
 }
 
