@@ -175,7 +175,8 @@ class Test:
         """Options without their engine, and names that do not exist, are refused before anything is computed."""
         for words, expected in ((("--workers", "2"), "--engine"), (("--engine", "local", "--scheduler", "tcp://x:1"), "--engine dask"),
                                 (("--engine", "local", "--sshlogin", "pc2"), "--engine parallel"), (("--engine", "slurn"), "slurm"),
-                                (("--engine", "local", "--engine-set", "partitio=x"), "partition")):
+                                (("--engine", "local", "--engine-set", "partitio=x"), "partition"),
+                                (("--engine", "local", "--engine-set", "partition=x"), "by slurm")):
             done = self.faba("compare-controllers", "controllers.toml", "--out", "refused", *words)
             self.check(done.returncode == 2 and expected in done.stderr and not (self.folder / "refused").exists(), f"refused: {done.stderr.strip()}")
 
@@ -372,6 +373,7 @@ def run_slurm(test, kills):
     try:
         test.engine("slurm", "--workers", 3)
         twice(test)
+        mistakes(test)
         if kills:
             test.kill_workers("slurm", "--workers", 3)
             kill_node(test, cluster)
@@ -388,6 +390,45 @@ def twice(test):
         test.check(run.wait() == 0, f"slurm, {out}")
         test.equal("controllers", out, f"slurm, {out}")
         test.check("left tasks" not in test.log(out), f"slurm, {out}: no attempt left tasks")
+
+
+def mistakes(test):
+    """What a user meets on a new cluster: settings that it does not have, unusual paths, jobs that never start or fail."""
+    command = ("compare-controllers", "controllers.toml", "--quiet", "--engine", "slurm", "--workers", 3)
+    folder = test.folder / "my lab's 50%a"
+    folder.mkdir()
+    for name in ("controllers.toml", "steer.toml"):
+        shutil.copy(test.folder / name, folder)
+    done = test.faba(*command, "--out", "my study", cwd=folder)
+    test.check(done.returncode == 0, f"slurm: blank, apostrophe and percent sign in the path {done.stderr}")
+    test.equal("controllers", folder / "my study", "slurm, unusual path")
+
+    for setting, key in (("partition=none", "partition"), ('options=["--mem=900G"]', "options"), ('options=["--nonsense"]', "options")):
+        done = test.faba(*command, "--out", "refused-jobs", "--engine-set", setting)
+        test.check(done.returncode == 2 and f"correct {key} in [engine]" in done.stderr, f"slurm, {setting}: {done.stderr.strip()}")
+
+    done = test.faba(*command, "--out", "environment", "--engine-set", 'environment=["module load none"]')
+    logs = [log for log in (test.folder / "environment/jobs").glob("*") if log.suffix != ".log" or not log.stat().st_size]
+    test.check(done.returncode == 0 and "module: command not found" in (test.folder / "environment/attempts.csv").read_text(),
+               f"slurm: messages of the environment lines are recorded {done.stderr}")
+    test.check(not logs, f"slurm: scripts, lists and empty logs are removed {logs}")
+
+    # Jobs above the time limit of the partition wait for ever; then the coordinator is killed, and another engine completes the study.
+    run = test.start(*command, "--out", "brief", "--engine-set", "partition=brief")
+    attempts = test.folder / "brief/attempts.csv"
+    for _ in range(200):
+        if attempts.exists() and "all jobs of Slurm wait: Partition" in attempts.read_text():
+            break
+        time.sleep(0.1)
+    test.check("all jobs of Slurm wait: Partition" in attempts.read_text(), "slurm: the reason of waiting is recorded")
+    marker = (test.folder / "brief/incomplete").read_text()
+    test.check("--engine slurm --engine-set partition=brief --workers 3" in marker, f"the command that resumes has the engine: {marker}")
+    run.kill()
+    run.wait()
+    done = test.faba("compare-controllers", "controllers.toml", "--out", "brief", "--engine", "local")
+    left = subprocess.run(["squeue", "--noheader", "--states=PENDING,RUNNING"], capture_output=True, text=True).stdout
+    test.check(done.returncode == 0 and "cancelled the Slurm jobs" in done.stderr and not left.strip(), f"slurm: jobs of a killed command are cancelled {left}")
+    test.equal("controllers", "brief", "slurm, then local")
 
 
 def kill_node(test, cluster):

@@ -39,6 +39,7 @@ class ParallelEngine final : public Engine {
       if (!program_exists(program))
         throw Error(Errc::usage, "--engine parallel",
                     fmt::format("the program {} is not installed; install the package {}", program, package));
+    check_hosts();
     slots_ = settings_.workers > 0
                  ? unsigned(settings_.workers) * unsigned(std::max<std::size_t>(1, settings_.hosts.size()))
              : settings_.hosts.empty() ? number_of_threads(0)
@@ -81,7 +82,7 @@ class ParallelEngine final : public Engine {
       read_joblog(call, ends);
       if (!over) continue;
       for (std::size_t k = 0; k < call.ids.size(); ++k)
-        if (!call.ended[k]) ends.push_back({call.ids[k], over_text(call), -1});
+        if (!call.ended[k]) ends.push_back({call.ids[k], "GNU parallel has ended", -1, {}, message_of(call)});
       remove_files(call);
       call.process = -1;
     }
@@ -101,17 +102,29 @@ class ParallelEngine final : public Engine {
   }
 
  private:
-  static std::string over_text(const ParallelCall& call) {
-    const std::string message = last_message(call.log);
-    return message.empty()
-               ? "GNU parallel has ended"
-               : fmt::format("GNU parallel has ended ({}), see {}", message, call.log.string());
+  static std::string message_of(const ParallelCall& call) {
+    const std::string message = first_message(call.log);
+    return message.empty() ? "" : fmt::format("{}, see {}", message, call.log.string());
   }
 
   static void remove_files(const ParallelCall& call) {
     std::error_code ec;
     for (const fs::path& file : {call.list, call.joblog}) fs::remove(file, ec);
     remove_if_empty(call.log);
+  }
+
+  // GNU parallel reports a wrong number as an error of its own.
+  void check_hosts() const {
+    for (const std::string& host : settings_.hosts) {
+      const auto slash = host.find('/');
+      if (slash == std::string::npos || host.starts_with("@") ||
+          host.substr(0, slash).find_first_not_of("0123456789") == std::string::npos)
+        continue;
+      throw Error(Errc::usage, "--sshlogin",
+                  fmt::format("\"{}\" does not start with a number of workers; write NUMBER/HOST, such as "
+                              "4/user@pc2",
+                              host));
+    }
   }
 
   // "4/user@host" has four workers; a host without a number has one.
@@ -165,9 +178,8 @@ class ParallelEngine final : public Engine {
         continue;
       if (number < 1 || number > call.ids.size() || call.ended[number - 1]) continue;
       call.ended[number - 1] = true;
-      std::string how = end_text(signal != 0 ? -signal : exit);
-      if (exit == kSshFailed) how += ", " + last_message(call.log);
-      ends.push_back({call.ids[number - 1], how, signal != 0 ? -1 : exit});
+      ends.push_back({call.ids[number - 1], end_text(signal != 0 ? -signal : exit), signal != 0 ? -1 : exit,
+                      fmt::format("host {}", host), exit == kSshFailed ? message_of(call) : ""});
     }
   }
 

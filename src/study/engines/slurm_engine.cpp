@@ -184,7 +184,7 @@ class SlurmEngine final : public Engine {
     if (t.end_answers < kEndAnswers) return {};
     AttemptEnd end{t.id, "not in the queue any more", -1, "job " + name};
     if (job) std::tie(end.how, end.exit) = end_of_job(*job, settings_.time);
-    if (const std::string message = last_message(t.output); !message.empty()) end.how += ": " + message;
+    end.message = last_message(t.output);
     return end;
   }
 
