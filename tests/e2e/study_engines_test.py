@@ -376,6 +376,7 @@ def run_slurm(test, kills):
         mistakes(test)
         if kills:
             test.kill_workers("slurm", "--workers", 3)
+            signal_jobs(test)
             kill_node(test, cluster)
             kill_controller(test, cluster)
     finally:
@@ -429,6 +430,17 @@ def mistakes(test):
     left = subprocess.run(["squeue", "--noheader", "--states=PENDING,RUNNING"], capture_output=True, text=True).stdout
     test.check(done.returncode == 0 and "cancelled the Slurm jobs" in done.stderr and not left.strip(), f"slurm: jobs of a killed command are cancelled {left}")
     test.equal("controllers", "brief", "slurm, then local")
+
+
+def signal_jobs(test):
+    """The signal of Slurm before the time limit reaches the worker, which keeps its results."""
+    run = test.start("compare-controllers", "controllers.toml", "--quiet", "--out", "signal", "--engine", "slurm", "--workers", 3)
+    test.wait_for_results("signal", 20000)
+    subprocess.run("squeue -h --states=RUNNING --array -o %F_%K | xargs -n 1 scancel --batch --signal=TERM", shell=True)
+    code = run.wait()
+    log = (test.folder / "signal/attempts.csv").read_text()
+    test.check(code == 0 and "stopped after" in log and "left tasks" in log, f"slurm: signal to all jobs, exit code {code}")
+    test.equal("controllers", "signal", "slurm, signal")
 
 
 def kill_node(test, cluster):

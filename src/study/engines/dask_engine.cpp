@@ -26,7 +26,8 @@ constexpr int kStartTimeout = 120000;  // ms
 
 class DaskEngine final : public Engine {
  public:
-  DaskEngine(const EngineSettings& settings, WorkerCommand worker) : worker_(std::move(worker)), scheduler_(settings.scheduler) {
+  DaskEngine(const EngineSettings& settings, WorkerCommand worker)
+      : worker_(std::move(worker)), scheduler_(settings.scheduler) {
     if (run_command({settings.python, "-c", "import distributed"}).exit != 0)
       throw Error(
           Errc::usage, "--engine dask",
@@ -99,9 +100,10 @@ class DaskEngine final : public Engine {
       if (std::sscanf(line.c_str(), "slots %u", &slots_) == 1) return;
     const std::string message = last_message(log_);
     throw Error(Errc::internal, "--engine dask",
-                scheduler_.empty() ? fmt::format("no Dask cluster could be started; see {}", log_.string())
-                                   : fmt::format("the Dask scheduler {} was not reached{}; see {}", scheduler_,
-                                                 message.empty() ? "" : " (" + message + ")", log_.string()));
+                scheduler_.empty()
+                    ? fmt::format("no Dask cluster could be started; see {}", log_.string())
+                    : fmt::format("the Dask scheduler {} was not reached{}; see {}", scheduler_,
+                                  message.empty() ? "" : " (" + message + ")", log_.string()));
   }
 
   // The next line of the program; false when no line comes within `timeout` ms.

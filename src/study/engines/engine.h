@@ -22,9 +22,9 @@ struct Attempt {
 /// reported here.
 struct AttemptEnd {
   std::uint64_t id = 0;
-  std::string how;         ///< "exit code 0", "signal 9", "not in the queue any more"
-  int exit = -1;           ///< exit code; -1: unknown or killed
-  std::string where = {};  ///< "job 17_3"; empty: nothing to add to the number of the attempt
+  std::string how;           ///< "exit code 0", "signal 9", "not in the queue any more"
+  int exit = -1;             ///< exit code; -1: unknown or killed
+  std::string where = {};    ///< "job 17_3"; empty: nothing to add to the number of the attempt
   std::string message = {};  ///< of the engine about this attempt
   std::string text() const {
     return (where.empty() ? how : where + ": " + how) + (message.empty() ? "" : ": " + message);

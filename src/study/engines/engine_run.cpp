@@ -62,7 +62,7 @@ struct EngineRun::State {
   int fruitless = 0;      ///< ends without a result in succession
   std::size_t known = 0;  ///< results in the store at the last end
   double read_at = 0, untroubled_at = 0, refused_until = 0;
-  double looked_at = 0, worked = 0;  ///< s; `worked`: time with running workers, before the first result
+  double checked_at = 0, worked = 0;  ///< s; `worked`: time with running workers, before the first result
 
   // Time of a task. Without a result it is unknown, or longer than the time for which workers run.
   std::optional<double> seconds_per_task() const {
@@ -214,12 +214,11 @@ void EngineRun::take_left(State& s, const Running& ended, const AttemptEnd& how)
       charged = true;
     }
     const int times = failures_now + s.deaths[task];
-    const std::string reason = failures_now > 0 ? recorded->second.what
-                                                : "the worker ended with " + joined(how.text(), message);
+    const std::string reason =
+        failures_now > 0 ? recorded->second.what : "the worker ended with " + joined(how.text(), message);
     const bool given_up = times >= kMostAttempts;
     if (failures_now > 0 || given_up)
-      log_.add(name, given_up ? "task failed" : "task error",
-               std::to_string(s.planned.first + task), reason);
+      log_.add(name, given_up ? "task failed" : "task error", std::to_string(s.planned.first + task), reason);
     if (given_up) {
       s.failed[task] = reason;
       s.close(task);
@@ -257,18 +256,19 @@ void EngineRun::check_end(State& s, const Running& ended, const AttemptEnd& how)
   }
   if (s.fruitless < kMostFruitless) return;
   engine_->cancel();
-  throw Error(Errc::internal, message.empty() ? "" : ended.attempt.log.string(),
-              fmt::format("the last {} workers ended without a result ({}); correct the settings of the "
-                          "engine and run the same command again. {} lists how they ended",
-                          s.fruitless, joined(how.text(), message), (dir_ / study_files::kAttempts).string()));
+  throw Error(
+      Errc::internal, message.empty() ? "" : ended.attempt.log.string(),
+      fmt::format("the last {} workers ended without a result ({}); correct the settings of the "
+                  "engine and run the same command again. {} lists how they ended",
+                  s.fruitless, joined(how.text(), message), (dir_ / study_files::kAttempts).string()));
 }
 
 void EngineRun::wait(State& s) {
   std::this_thread::sleep_for(std::chrono::duration<double>(engine_->period_s()));
   const std::string trouble = engine_->trouble();
   const double now = monotonic_now();
-  if (!s.running.empty() && waiting_for().empty() && s.looked_at > 0) s.worked += now - s.looked_at;
-  s.looked_at = now;
+  if (!s.running.empty() && waiting_for().empty() && s.checked_at > 0) s.worked += now - s.checked_at;
+  s.checked_at = now;
   if (trouble.empty()) s.untroubled_at = now;
   if (trouble == trouble_ || now - s.untroubled_at < kTroubleTime) return;
   trouble_ = trouble;

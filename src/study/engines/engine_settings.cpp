@@ -18,9 +18,10 @@ constexpr std::array kEngines = {"local", "parallel", "slurm", "dask"};
 const std::map<std::string, std::vector<EngineType>>& engines_of_keys() {
   using enum EngineType;
   static const std::map<std::string, std::vector<EngineType>> all{
-      {"scheduler", {dask}}, {"hosts", {parallel}}, {"partition", {slurm}},
-      {"account", {slurm}},  {"time", {slurm}},     {"options", {slurm}},
-      {"python", {dask}},    {"environment", {slurm, parallel}}};
+      {"scheduler", {dask}},  {"hosts", {parallel}},
+      {"partition", {slurm}}, {"account", {slurm}},
+      {"time", {slurm}},      {"options", {slurm}},
+      {"python", {dask}},     {"environment", {slurm, parallel}}};
   return all;
 }
 
@@ -60,7 +61,8 @@ Schema<EngineSettings> EngineSettings::schema() {
                    "machine"})
       .add("partition", &E::partition, {.doc = "slurm: partition; default: that of the cluster"})
       .add("account", &E::account, {.doc = "slurm: account"})
-      .add("time", &E::time, {.unit = "s",
+      .add("time", &E::time,
+           {.unit = "s",
             .min = 180,
             .max = 1e7,
             .doc = "slurm: time limit of a job; a worker is asked to end 1 to 2 min before it"})

@@ -14,13 +14,23 @@ namespace faba {
 namespace {
 
 // States from which Slurm starts no job again (man squeue, "JOB STATE CODES").
-constexpr std::array<std::string_view, 9> kEnded{"BOOT_FAIL", "CANCELLED", "COMPLETED",     "DEADLINE", "FAILED",
-                                                 "NODE_FAIL", "PREEMPTED", "OUT_OF_MEMORY", "TIMEOUT"};
+constexpr std::array<std::string_view, 9> kEnded{"BOOT_FAIL", "CANCELLED",     "COMPLETED",
+                                                 "DEADLINE",  "FAILED",        "NODE_FAIL",
+                                                 "PREEMPTED", "OUT_OF_MEMORY", "TIMEOUT"};
 // Messages of sbatch about the connection to the controller, and about limits on the number of jobs.
-constexpr std::array<std::string_view, 13> kForNow{
-    "Unable to contact", "timed out",    "standby",          "temporarily",     "Connection",
-    "connection",        "Zero Bytes",   "Protocol",         "Transport",       "unge",
-    "Job violates accounting/QOS policy", "SubmitJob", "Unable to resolve"};
+constexpr std::array<std::string_view, 13> kForNow{"Unable to contact",
+                                                   "timed out",
+                                                   "standby",
+                                                   "temporarily",
+                                                   "Connection",
+                                                   "connection",
+                                                   "Zero Bytes",
+                                                   "Protocol",
+                                                   "Transport",
+                                                   "unge",
+                                                   "Job violates accounting/QOS policy",
+                                                   "SubmitJob",
+                                                   "Unable to resolve"};
 
 bool contains(std::string_view text, std::string_view part) { return text.find(part) != text.npos; }
 
@@ -47,7 +57,8 @@ std::vector<SlurmJob> squeue_jobs(const std::string& answer) {
     j.exit = exit_of(exit);
     std::getline(words >> std::ws, j.reason);
     j.reason.erase(j.reason.find_last_not_of(' ') + 1);
-    if (j.reason.starts_with("(") && j.reason.ends_with(")")) j.reason = j.reason.substr(1, j.reason.size() - 2);
+    if (j.reason.starts_with("(") && j.reason.ends_with(")"))
+      j.reason = j.reason.substr(1, j.reason.size() - 2);
     jobs.push_back(std::move(j));
   }
   return jobs;
@@ -55,8 +66,9 @@ std::vector<SlurmJob> squeue_jobs(const std::string& answer) {
 
 std::pair<std::string, int> end_of_job(const SlurmJob& job, double time) {
   if (job.state == "TIMEOUT")
-    return {fmt::format("reached its time limit (time of [engine] is {:g} min); set a longer time", time / 60),
-            -1};
+    return {
+        fmt::format("reached its time limit (time of [engine] is {:g} min); set a longer time", time / 60),
+        -1};
   if (job.state == "OUT_OF_MEMORY")
     return {"exceeded its memory limit; set more in options of [engine], such as \"--mem=4G\"", -1};
   if (job.state == "FAILED" || job.state == "COMPLETED") return {end_text(job.exit), std::max(-1, job.exit)};
@@ -74,12 +86,13 @@ std::string reason_of_waiting(const std::vector<SlurmJob>& jobs) {
 }
 
 std::string trouble_of_waiting(const std::string& reason) {
-  for (const std::string_view usual : {"", "None", "Resources", "Priority", "BeginTime", "Cleaning"})
-    if (reason == usual) return {};
+  for (const std::string_view harmless : {"", "None", "Resources", "Priority", "BeginTime", "Cleaning"})
+    if (reason == harmless) return {};
   std::string text = "all jobs of Slurm wait: " + reason;
   if (reason == "PartitionTimeLimit" || reason == "PartitionConfig")
-    text += "; the jobs may exceed the limits of the partition: compare time, partition and options of [engine] "
-            "with the output of `scontrol show partition`";
+    text +=
+        "; the jobs may exceed the limits of the partition: compare time, partition and options of [engine] "
+        "with the output of `scontrol show partition`";
   else if (reason.starts_with("Assoc") || reason.starts_with("QOS") || reason.starts_with("Invalid"))
     text += "; compare account, time and options of [engine] with the limits of your account";
   return text;

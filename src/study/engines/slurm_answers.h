@@ -20,7 +20,7 @@ inline constexpr const char* kSqueueFormat =
 /// The jobs in an answer of squeue --noheader --array --states=all.
 std::vector<SlurmJob> squeue_jobs(const std::string& answer);
 
-/// How a job has ended, with advice, and its exit code, -1 if there is none. `time`: its time limit, s.
+/// How a job has ended, with advice, and its exit code, or -1. `time`: its time limit, s.
 std::pair<std::string, int> end_of_job(const SlurmJob& job, double time);
 
 /// Why none of the jobs that have not ended runs, in the words of squeue; empty: one runs, or there are none.

@@ -177,7 +177,7 @@ class SlurmEngine final : public Engine {
   // A complete result file shows the end before squeue does. Slurm shows jobs that ended for some minutes.
   AttemptEnd end_of(const std::string& name, SlurmTask& t, bool answered, const Jobs& jobs) const {
     std::error_code ec;
-    if (fs::exists(t.results, ec)) return {t.id, end_text(0), 0, "job " + name};
+    if (fs::exists(t.results, ec)) return {t.id, "results written", 0, "job " + name};
     if (!answered) return {};
     const SlurmJob* job = job_of(name, jobs);
     t.end_answers = job && !job->ended() ? 0 : t.end_answers + 1;

@@ -13,7 +13,8 @@ const std::string kAnswer =
     "12                  1                   FAILED              768                 (NonZeroExitCode)   \n"
     "12                  2                   FAILED              9                   (JobLaunchFailure)  \n"
     "12                  3                   RUNNING             0                   node1               \n"
-    "12                  4                   PENDING             0                   (Nodes required for job are DOWN)\n"
+    "12                  4                   PENDING             0                   (Nodes required for job "
+    "are DOWN)\n"
     "12                  5                   TIMEOUT             0                   (TimeLimit)         \n";
 
 SlurmJob pending(const std::string& reason) { return {"1_1", "PENDING", 0, reason}; }
@@ -51,12 +52,13 @@ TEST_CASE("jobs wait only when none runs; reasons that time does not remove are 
   CHECK(reason_of_waiting({pending("None"), pending("Priority")}) == "Priority");
   CHECK(reason_of_waiting({pending("Resources"), {"1_2", "RUNNING", 0, ""}}).empty());
   CHECK(reason_of_waiting({pending("Resources"), {"1_2", "FAILED", 0, ""}}) == "Resources");
-  for (const char* usual : {"", "None", "Resources", "Priority"}) CHECK(trouble_of_waiting(usual).empty());
+  for (const char* harmless : {"", "None", "Resources", "Priority"})
+    CHECK(trouble_of_waiting(harmless).empty());
   CHECK(trouble_of_waiting("PartitionTimeLimit").find("compare time, partition") != std::string::npos);
   CHECK(trouble_of_waiting("JobHeldAdmin") == "all jobs of Slurm wait: JobHeldAdmin");
 }
 
-TEST_CASE("errors of sbatch that time removes are told from those that the user must correct") {
+TEST_CASE("errors of sbatch that time removes, and those that the user must correct") {
   for (const char* now :
        {"sbatch: error: Batch job submission failed: Unable to contact slurm controller (connect failure)",
         "sbatch: error: Batch job submission failed: Socket timed out on send/recv operation",
@@ -65,17 +67,20 @@ TEST_CASE("errors of sbatch that time removes are told from those that the user 
         "accounting/QOS policy (job submit limit, user's size and/or time limits)"})
     CHECK(refused_for_now(now));
   for (const auto& [answer, key] :
-       {std::pair{"sbatch: error: invalid partition specified: x\nsbatch: error: Batch job submission failed: "
-                  "Invalid partition name specified\n",
-                  "partition"},
+       {std::pair{
+            "sbatch: error: invalid partition specified: x\nsbatch: error: Batch job submission failed: "
+            "Invalid partition name specified\n",
+            "partition"},
         {"sbatch: error: Batch job submission failed: Invalid account or account/partition combination "
          "specified",
          "account"},
         {"sbatch: error: Invalid --time specification", "time"},
-        {"sbatch: unrecognized option '--nonsense'\nTry \"sbatch --help\" for more information", "options"}}) {
+        {"sbatch: unrecognized option '--nonsense'\nTry \"sbatch --help\" for more information",
+         "options"}}) {
     CHECK_FALSE(refused_for_now(answer));
     CHECK_MESSAGE(refusal(answer).ends_with(std::string("correct ") + key + " in [engine]"), refusal(answer));
   }
-  CHECK(refusal("sbatch: error: invalid partition specified: x\n").find(": invalid partition specified: x;") !=
-        std::string::npos);
+  CHECK(
+      refusal("sbatch: error: invalid partition specified: x\n").find(": invalid partition specified: x;") !=
+      std::string::npos);
 }
