@@ -365,6 +365,25 @@ def ended(log):
     return log.count("left tasks") + log.count(",complete,")
 
 
+SCHEDULER = """import distributed, sys
+cluster = distributed.LocalCluster(n_workers=0, dashboard_address=None, processes=False)
+print(cluster.scheduler_address, flush=True)
+sys.stdin.read()
+"""
+
+
+def dask_without_workers(test):
+    scheduler = subprocess.Popen(["/usr/bin/python3", "-c", SCHEDULER], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    address = scheduler.stdout.readline().strip()
+    run = test.start("compare-controllers", "controllers.toml", "--out", "no-workers", "--engine", "dask", "--scheduler", address)
+    note = run.stderr.readline()
+    test.check(f"the Dask scheduler {address} has no workers" in note, f"dask: {note.strip()}")
+    run.terminate()
+    run.wait()
+    scheduler.stdin.close()
+    scheduler.wait()
+
+
 def run_slurm(test, kills):
     why = slurm_cluster.missing()
     if why:
@@ -499,6 +518,8 @@ def main():
                 test.skip(f"{name}: {why}")
                 continue
             test.engine(name, *extra)
+            if name == "dask":
+                dask_without_workers(test)
             if options.kills:
                 test.kill_workers(name, *extra)
             if options.kills and name == "parallel":
