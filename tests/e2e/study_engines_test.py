@@ -366,7 +366,7 @@ def ended(log):
 
 
 SCHEDULER = """import distributed, sys
-cluster = distributed.LocalCluster(n_workers=0, dashboard_address=None, processes=False)
+cluster = distributed.LocalCluster(n_workers=0, dashboard_address=None, processes=False, protocol="tcp")
 print(cluster.scheduler_address, flush=True)
 sys.stdin.read()
 """
