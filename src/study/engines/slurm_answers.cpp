@@ -45,6 +45,8 @@ int exit_of(const std::string& word) {
 
 bool SlurmJob::ended() const { return std::ranges::find(kEnded, state) != kEnded.end(); }
 
+bool SlurmJob::held() const { return state == "PENDING" && reason == "launch failed requeued held"; }
+
 std::vector<SlurmJob> squeue_jobs(const std::string& answer) {
   std::vector<SlurmJob> jobs;
   std::istringstream lines(answer);

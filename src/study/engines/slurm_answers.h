@@ -12,6 +12,9 @@ struct SlurmJob {
   int exit = 0;        ///< exit code, or -signal
   std::string reason;  ///< "Resources"
   bool ended() const;
+  /// Whether Slurm has requeued the job and does not start it again, for example because a controller that
+  /// was killed has assigned the number of a job that a node still has.
+  bool held() const;
 };
 
 /// Format of squeue for squeue_jobs(); it is the argument of --Format.

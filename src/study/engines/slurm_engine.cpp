@@ -180,6 +180,10 @@ class SlurmEngine final : public Engine {
     if (fs::exists(t.results, ec)) return {t.id, "results written", 0, "job " + name};
     if (!answered) return {};
     const SlurmJob* job = job_of(name, jobs);
+    if (job && job->held()) {
+      run_command({"scancel", name});
+      return {t.id, job->reason, -1, "job " + name};
+    }
     t.end_answers = job && !job->ended() ? 0 : t.end_answers + 1;
     if (t.end_answers < kEndAnswers) return {};
     AttemptEnd end{t.id, "not in the queue any more", -1, "job " + name};

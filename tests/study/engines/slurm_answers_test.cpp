@@ -33,6 +33,8 @@ TEST_CASE("states, exit codes, signals and reasons are read from squeue") {
   CHECK(jobs[4].reason == "Nodes required for job are DOWN");
   CHECK(squeue_jobs("12 1 FAILED 3:0 None\n12 2 FAILED 0:15 None\n")[0].exit == 3);
   CHECK(squeue_jobs("12 1 FAILED 3:0 None\n12 2 FAILED 0:15 None\n")[1].exit == -15);
+  CHECK_FALSE(jobs[4].held());
+  CHECK(squeue_jobs("12 6 PENDING 0 (launch failed requeued held)  \n")[0].held());
   CHECK(squeue_jobs("").empty());
 }
 
