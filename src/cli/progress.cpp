@@ -19,12 +19,17 @@ bool can_erase() {
   return kind && std::strcmp(kind, "dumb") != 0;
 }
 
+// Columns of the terminal; 0: unknown.
+int terminal_width() {
+  winsize size{};
+  return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 ? int(size.ws_col) : 0;
+}
+
 // Width of the bar beside a label of `label` characters, limited by the width of the terminal.
 int bar_width(std::size_t label) {
   constexpr int kMax = 30, kNumbers = 22;
-  winsize size{};
-  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kMax;
-  return std::clamp(int(size.ws_col) - int(label) - kNumbers, 0, kMax);
+  const int width = terminal_width();
+  return width == 0 ? kMax : std::clamp(width - int(label) - kNumbers, 0, kMax);
 }
 
 constexpr double kReportPeriod = 0.1;  // s
@@ -59,8 +64,10 @@ void Progress::clear() {
   shown_ = false;
 }
 
-void Progress::update(std::uint64_t done, std::uint64_t total) {
+void Progress::update(std::uint64_t done, std::uint64_t total, const std::string& waiting) {
   const auto now = Clock::now();
+  if (!waiting.empty()) began_ += now - updated_;
+  updated_ = now;
   if (report_descriptor_ >= 0 &&
       (done == total || std::chrono::duration<double>(now - reported_).count() > kReportPeriod)) {
     reported_ = now;
@@ -72,7 +79,7 @@ void Progress::update(std::uint64_t done, std::uint64_t total) {
     first_ = done > 0 ? done - 1 : 0;
   }
   const double elapsed = std::chrono::duration<double>(now - began_).count();
-  if (elapsed < 1 || std::chrono::duration<double>(now - drawn_).count() < 0.1) return;
+  if ((elapsed < 1 && waiting.empty()) || std::chrono::duration<double>(now - drawn_).count() < 0.1) return;
   drawn_ = now;
   shown_ = true;
   if (total == 0) {
@@ -82,9 +89,13 @@ void Progress::update(std::uint64_t done, std::uint64_t total) {
   }
   const double fraction = double(done) / double(total);
   const double remaining = elapsed * double(total - done) / double(std::max<std::uint64_t>(done - first_, 1));
-  const int width = bar_width(what_.size()), full = int(fraction * width);
-  const std::string bar = fmt::format("\r\033[K{} [{:#<{}}{: <{}}] {:3.0f} %  {} left", what_, "", full, "",
-                                      width - full, 100 * fraction, clock_time(remaining));
+  std::string right = waiting.empty() ? clock_time(remaining) + " left" : waiting;
+  const int width = bar_width(what_.size()) / (waiting.empty() ? 1 : 3), full = int(fraction * width);
+  constexpr int kBesideBar = 11;  // characters of " [] 100 %  ", and the last column
+  if (const int columns = terminal_width(); columns > 0)
+    right = right.substr(0, std::size_t(std::max(0, columns - int(what_.size()) - width - kBesideBar)));
+  const std::string bar = fmt::format("\r\033[K{} [{:#<{}}{: <{}}] {:3.0f} %  {}", what_, "", full, "",
+                                      width - full, 100 * fraction, right);
   std::fputs(bar.c_str(), stderr);
   std::fflush(stderr);
 }

@@ -16,7 +16,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   void clear();  ///< erases the bar; the next update() draws it again
-  void update(std::uint64_t done, std::uint64_t total);
+  /// `waiting`: what the work waits for, shown instead of the remaining time; this time does not count.
+  void update(std::uint64_t done, std::uint64_t total, const std::string& waiting = {});
 
  private:
   void report(std::uint64_t done, std::uint64_t total) const;
@@ -25,7 +26,7 @@ class Progress {
   std::string what_;
   bool enabled_, shown_ = false;
   int report_descriptor_;  ///< -1: none
-  Clock::time_point began_ = Clock::now(), drawn_ = began_, reported_;
+  Clock::time_point began_ = Clock::now(), drawn_ = began_, updated_ = began_, reported_;
   std::uint64_t first_ = 0;  ///< work done by an earlier process: not part of the speed
   bool started_ = false;
 };

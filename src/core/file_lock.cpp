@@ -23,6 +23,12 @@ constexpr const char* kFirst = "faba process ";
               fmt::format("{}: {}", what, std::generic_category().message(errno)));
 }
 
+std::string host() {
+  char name[256] = {};
+  return ::gethostname(name, sizeof name - 1) == 0 ? name : "";
+}
+
+// "process 17 on pc2": the number is of use on that host only.
 std::string holder(const std::filesystem::path& file) {
   std::ifstream in(file);
   std::string line;
@@ -58,7 +64,7 @@ FileLock::FileLock(const std::filesystem::path& file, const std::filesystem::pat
   struct stat before {};
   const bool had_text = fstat(descriptor_, &before) != 0 || before.st_size > 0;
   // Overwrite, then truncate: on a full disk the text of an earlier process is kept.
-  const std::string content = fmt::format("{}{}\n{}", kFirst, getpid(), text);
+  const std::string content = fmt::format("{}{} on {}\n{}", kFirst, getpid(), host(), text);
   errno = ENOSPC;  // reported after a partial write, which sets no errno
   if (::pwrite(descriptor_, content.data(), content.size(), 0) != ssize_t(content.size()) ||
       ::ftruncate(descriptor_, off_t(content.size())) != 0 || ::fsync(descriptor_) != 0) {

@@ -11,7 +11,7 @@ namespace faba {
 class FileLock {
  public:
   FileLock() = default;
-  /// Creates the file if necessary and writes the process id and, on the next lines, `text`. Throws
+  /// Creates the file if necessary and writes the process id, the host and, on the next lines, `text`. Throws
   /// Error(held, shown) if another process holds it, Error(internal) if it cannot be written. On a file
   /// system without locks it succeeds: it then only marks the directory.
   FileLock(const std::filesystem::path& file, const std::filesystem::path& shown, const std::string& text,

@@ -38,6 +38,7 @@ MpiDefault=none
 SlurmdParameters=config_overrides
 SchedulerParameters=batch_sched_delay=0,sched_min_interval=0
 PartitionName=main Nodes=node[1-3] Default=YES MaxTime=INFINITE State=UP
+PartitionName=brief Nodes=node[1-3] MaxTime=1 State=UP
 """
 
 

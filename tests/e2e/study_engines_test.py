@@ -175,7 +175,8 @@ class Test:
         """Options without their engine, and names that do not exist, are refused before anything is computed."""
         for words, expected in ((("--workers", "2"), "--engine"), (("--engine", "local", "--scheduler", "tcp://x:1"), "--engine dask"),
                                 (("--engine", "local", "--sshlogin", "pc2"), "--engine parallel"), (("--engine", "slurn"), "slurm"),
-                                (("--engine", "local", "--engine-set", "partitio=x"), "partition")):
+                                (("--engine", "local", "--engine-set", "partitio=x"), "partition"),
+                                (("--engine", "local", "--engine-set", "partition=x"), "by slurm")):
             done = self.faba("compare-controllers", "controllers.toml", "--out", "refused", *words)
             self.check(done.returncode == 2 and expected in done.stderr and not (self.folder / "refused").exists(), f"refused: {done.stderr.strip()}")
 
@@ -364,6 +365,25 @@ def ended(log):
     return log.count("left tasks") + log.count(",complete,")
 
 
+SCHEDULER = """import distributed, sys
+cluster = distributed.LocalCluster(n_workers=0, dashboard_address=None, processes=False, protocol="tcp")
+print(cluster.scheduler_address, flush=True)
+sys.stdin.read()
+"""
+
+
+def dask_without_workers(test):
+    scheduler = subprocess.Popen(["/usr/bin/python3", "-c", SCHEDULER], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    address = scheduler.stdout.readline().strip()
+    run = test.start("compare-controllers", "controllers.toml", "--out", "no-workers", "--engine", "dask", "--scheduler", address)
+    note = run.stderr.readline()
+    test.check(f"the Dask scheduler {address} has no workers" in note, f"dask: {note.strip()}")
+    run.terminate()
+    run.wait()
+    scheduler.stdin.close()
+    scheduler.wait()
+
+
 def run_slurm(test, kills):
     why = slurm_cluster.missing()
     if why:
@@ -372,8 +392,10 @@ def run_slurm(test, kills):
     try:
         test.engine("slurm", "--workers", 3)
         twice(test)
+        mistakes(test)
         if kills:
             test.kill_workers("slurm", "--workers", 3)
+            signal_jobs(test)
             kill_node(test, cluster)
             kill_controller(test, cluster)
     finally:
@@ -388,6 +410,56 @@ def twice(test):
         test.check(run.wait() == 0, f"slurm, {out}")
         test.equal("controllers", out, f"slurm, {out}")
         test.check("left tasks" not in test.log(out), f"slurm, {out}: no attempt left tasks")
+
+
+def mistakes(test):
+    """What a user meets on a new cluster: settings that it does not have, unusual paths, jobs that never start or fail."""
+    command = ("compare-controllers", "controllers.toml", "--quiet", "--engine", "slurm", "--workers", 3)
+    folder = test.folder / "my lab's 50%a"
+    folder.mkdir()
+    for name in ("controllers.toml", "steer.toml"):
+        shutil.copy(test.folder / name, folder)
+    done = test.faba(*command, "--out", "my study", cwd=folder)
+    test.check(done.returncode == 0, f"slurm: blank, apostrophe and percent sign in the path {done.stderr}")
+    test.equal("controllers", folder / "my study", "slurm, unusual path")
+
+    for setting, key in (("partition=none", "partition"), ('options=["--mem=900G"]', "options"), ('options=["--nonsense"]', "options")):
+        done = test.faba(*command, "--out", "refused-jobs", "--engine-set", setting)
+        test.check(done.returncode == 2 and f"correct {key} in [engine]" in done.stderr, f"slurm, {setting}: {done.stderr.strip()}")
+
+    done = test.faba(*command, "--out", "environment", "--engine-set", 'environment=["module load none"]')
+    logs = [log for log in (test.folder / "environment/jobs").glob("*") if log.suffix != ".log" or not log.stat().st_size]
+    test.check(done.returncode == 0 and "module: command not found" in (test.folder / "environment/attempts.csv").read_text(),
+               f"slurm: messages of the environment lines are recorded {done.stderr}")
+    test.check(not logs, f"slurm: scripts, lists and empty logs are removed {logs}")
+
+    # Jobs above the time limit of the partition wait for ever; then the coordinator is killed, and another engine completes the study.
+    run = test.start(*command, "--out", "brief", "--engine-set", "partition=brief")
+    attempts = test.folder / "brief/attempts.csv"
+    for _ in range(200):
+        if attempts.exists() and "all jobs of Slurm wait: Partition" in attempts.read_text():
+            break
+        time.sleep(0.1)
+    test.check("all jobs of Slurm wait: Partition" in attempts.read_text(), "slurm: the reason of waiting is recorded")
+    marker = (test.folder / "brief/incomplete").read_text()
+    test.check("--engine slurm --engine-set partition=brief --workers 3" in marker, f"the command that resumes has the engine: {marker}")
+    run.kill()
+    run.wait()
+    done = test.faba("compare-controllers", "controllers.toml", "--out", "brief", "--engine", "local")
+    left = subprocess.run(["squeue", "--noheader", "--states=PENDING,RUNNING"], capture_output=True, text=True).stdout
+    test.check(done.returncode == 0 and "cancelled the Slurm jobs" in done.stderr and not left.strip(), f"slurm: jobs of a killed command are cancelled {left}")
+    test.equal("controllers", "brief", "slurm, then local")
+
+
+def signal_jobs(test):
+    """The signal of Slurm before the time limit reaches the worker, which keeps its results."""
+    run = test.start("compare-controllers", "controllers.toml", "--quiet", "--out", "signal", "--engine", "slurm", "--workers", 3)
+    test.wait_for_results("signal", 20000)
+    subprocess.run("squeue -h --states=RUNNING --array -o %F_%K | xargs -n 1 scancel --batch --signal=TERM", shell=True)
+    code = run.wait()
+    log = (test.folder / "signal/attempts.csv").read_text()
+    test.check(code == 0 and "stopped after" in log and "left tasks" in log, f"slurm: signal to all jobs, exit code {code}")
+    test.equal("controllers", "signal", "slurm, signal")
 
 
 def kill_node(test, cluster):
@@ -446,6 +518,8 @@ def main():
                 test.skip(f"{name}: {why}")
                 continue
             test.engine(name, *extra)
+            if name == "dask":
+                dask_without_workers(test)
             if options.kills:
                 test.kill_workers(name, *extra)
             if options.kills and name == "parallel":

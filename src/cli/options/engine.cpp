@@ -49,6 +49,19 @@ void check_engine(const EngineOptions& o) {
     if (given) throw Error(Errc::usage, option, "requires --engine, such as --engine local");
 }
 
+std::vector<std::string> engine_words(const EngineOptions& o) {
+  std::vector<std::string> words;
+  const auto add = [&](const char* option, const std::string& value) {
+    words.insert(words.end(), {option, value});
+  };
+  if (!o.engine.empty()) add("--engine", o.engine);
+  for (const std::string& s : o.set) add("--engine-set", s);
+  if (o.workers > 0) add("--workers", std::to_string(o.workers));
+  if (!o.scheduler.empty()) add("--scheduler", o.scheduler);
+  for (const std::string& host : o.hosts) add("--sshlogin", host);
+  return words;
+}
+
 EngineStart::EngineStart(EngineOptions options, std::filesystem::path dir, std::string study_hash,
                          const Common& c)
     : options_(std::move(options)),
@@ -61,7 +74,9 @@ bool EngineStart::operator()(const Round& round, ResultStore& store) {
   if (!run_) {
     const WorkerCommand worker{std::filesystem::read_symlink("/proc/self/exe"), dir_, study_hash_};
     EngineRun::Reports reports;
-    reports.progress = [this](std::uint64_t done, std::uint64_t total) { bar_.update(done, total); };
+    reports.progress = [this](std::uint64_t done, std::uint64_t total, const std::string& waiting) {
+      bar_.update(done, total, waiting);
+    };
     reports.stop = [&stop = stop_requested()] { return stop.load(); };
     reports.note = [this](const std::string& text) {
       bar_.clear();

@@ -28,6 +28,9 @@ EngineSettings settings_of(const EngineOptions& o);
 /// Throws Error(usage) for options that settings_of() refuses, and for those that need --engine without it.
 void check_engine(const EngineOptions& o);
 
+/// The options as words of a command: "--engine", "slurm", "--workers", "3".
+std::vector<std::string> engine_words(const EngineOptions& o);
+
 /// Starts the engine of the options for the first round that is computed, with one progress bar.
 class EngineStart {
  public:

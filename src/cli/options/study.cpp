@@ -11,7 +11,9 @@
 #include "core/child.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "study/engines/engines.h"
 #include "study/pages/provenance_output.h"
+#include "study/sweep/program_version.h"
 #include "study/sweep/round_planner.h"
 
 #include <nlohmann/json.hpp>
@@ -57,6 +59,7 @@ StudyDirectory open_study(const StudyOptions& v, const StudyJob& job) {
   for (const std::string& word : source.file.empty() ? source.options : std::vector{v.study.string()})
     again += " " + shell_word(word);
   again += (source.file.empty() ? " --folder " : " --out ") + shell_word(out.string());
+  for (const std::string& word : engine_words(v.engine)) again += " " + shell_word(word);
   StudyDirectory dir(out, job.hash(), again, v.force, source);
   dir.merge(v.merge);
   return dir;
@@ -68,6 +71,10 @@ bool report_if_complete(const StudyOptions& v, const StudyJob& job, const Common
   const std::filesystem::path out = out_of(v);
   if (v.force || !holds_complete_study(out, job.hash())) return false;
   check_merge(v.merge, job.hash());  // a wrong name is an error even if there is nothing to import
+  const std::string version = version_of_study(out);
+  if (version != program_version() && !version.empty() && !c.quiet)
+    print_stderr(fmt::format("faba: note: {}: faba {} has computed this study, this is faba {}", out.string(),
+                             version, program_version()));
   if (c.json)
     print_complete(out, nlohmann::ordered_json::parse(read_file(out / (job.report() + ".json"))));
   else if (!c.quiet)
@@ -120,6 +127,8 @@ std::optional<std::filesystem::path> run_study(StudyJob& job, const StudyOptions
                                                const Common& c) {
   if (report_if_complete(v, job, c)) return {};
   StudyDirectory dir = open_study(v, job);
+  const std::string cancelled = cancel_slurm_jobs(dir.path());
+  if (!cancelled.empty() && !c.quiet) print_stderr("faba: note: " + cancelled);
   options.measured = dir.path() / study_files::kMeasured;
   RoundPlanner planner(dir.path());  // `faba study export` reads the rounds
   options.completed = [&planner](const Round& round, const ResultStore& store) {

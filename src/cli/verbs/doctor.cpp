@@ -9,6 +9,7 @@
 
 #include "cli/command_line.h"
 #include "core/toml.h"
+#include "study/sweep/program_version.h"
 
 namespace faba::cli {
 namespace {
@@ -39,6 +40,7 @@ int doctor(const Common& c) {
   std::error_code ec;
   const auto space = std::filesystem::space(".", ec);
   const Json j = {{"version", FABA_VERSION},
+                  {"build", program_version()},
                   {"processor", value_of("/proc/cpuinfo", "model name")},
                   {"threads", std::thread::hardware_concurrency()},
                   {"vector_unit", vector_unit()},
@@ -49,6 +51,7 @@ int doctor(const Common& c) {
     return 0;
   }
   for (const auto& [name, key] : {std::pair{"version", "version"},
+                                  {"build", "build"},
                                   {"processor", "processor"},
                                   {"threads", "threads"},
                                   {"vector unit", "vector_unit"}})

@@ -26,7 +26,10 @@ std::uint64_t ChunkSize::tasks() const {
   const double per_task = std::max(*seconds, 1e-7), work = each * per_task;
   const double time = std::clamp(work * (queues ? kGuidedQueued : kGuided),
                                  queues ? kShortestQueued : kShortestChunk, kLongestChunk);
-  return std::clamp<std::uint64_t>(std::uint64_t(time / per_task), 1, std::min(open, kMostChunkTasks));
+  // Less when all workers get work by it; a queue takes no job below the shortest chunk.
+  const double even = queues ? std::max(each, std::ceil(kShortestChunk / per_task)) : each;
+  return std::clamp<std::uint64_t>(std::uint64_t(std::min(time / per_task, even)), 1,
+                                   std::min(open, kMostChunkTasks));
 }
 
 }  // namespace faba

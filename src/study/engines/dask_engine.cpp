@@ -26,7 +26,8 @@ constexpr int kStartTimeout = 120000;  // ms
 
 class DaskEngine final : public Engine {
  public:
-  DaskEngine(const EngineSettings& settings, WorkerCommand worker) : worker_(std::move(worker)) {
+  DaskEngine(const EngineSettings& settings, WorkerCommand worker)
+      : worker_(std::move(worker)), scheduler_(settings.scheduler) {
     if (run_command({settings.python, "-c", "import distributed"}).exit != 0)
       throw Error(
           Errc::usage, "--engine dask",
@@ -52,10 +53,16 @@ class DaskEngine final : public Engine {
     DaskEngine::cancel();
     ::close(connection_);  // the program ends at the end of its input
     end_child(process_, 10);
+    remove_if_empty(log_);
   }
 
   unsigned slots() const override { return slots_; }
   double period_s() const override { return 0.02; }
+  std::string trouble() const override {
+    if (workers_ > 0) return {};
+    return fmt::format("the Dask scheduler {} has no workers; start some by: dask worker {}", scheduler_,
+                       scheduler_);
+  }
 
   bool submit(std::span<const Attempt> attempts) override {
     for (const Attempt& a : attempts) {
@@ -72,6 +79,7 @@ class DaskEngine final : public Engine {
     for (std::string line; next_line(line, 0);) {
       std::uint64_t id = 0;
       int exit = -1;
+      if (std::sscanf(line.c_str(), "workers %u", &workers_) == 1) continue;
       if (std::sscanf(line.c_str(), "end %lu %d", &id, &exit) != 2 || running_.erase(id) == 0) continue;
       ends.push_back({id, exit < 0 ? fmt::format("signal {}", -exit) : end_text(exit), exit < 0 ? -1 : exit});
     }
@@ -90,9 +98,12 @@ class DaskEngine final : public Engine {
     std::string line;
     while (next_line(line, kStartTimeout))
       if (std::sscanf(line.c_str(), "slots %u", &slots_) == 1) return;
+    const std::string message = last_message(log_);
     throw Error(Errc::internal, "--engine dask",
-                fmt::format("no Dask cluster could be started or reached ({}); see {}", last_message(log_),
-                            log_.string()));
+                scheduler_.empty()
+                    ? fmt::format("no Dask cluster could be started; see {}", log_.string())
+                    : fmt::format("the Dask scheduler {} was not reached{}; see {}", scheduler_,
+                                  message.empty() ? "" : " (" + message + ")", log_.string()));
   }
 
   // The next line of the program; false when no line comes within `timeout` ms.
@@ -115,10 +126,11 @@ class DaskEngine final : public Engine {
   }
 
   WorkerCommand worker_;
+  std::string scheduler_;  ///< empty: workers on this machine
   fs::path log_;
   pid_t process_ = -1;
   int connection_ = -1;
-  unsigned slots_ = 1;
+  unsigned slots_ = 1, workers_ = 1;
   std::string text_;
   bool over_ = false;
   std::set<std::uint64_t> running_;

@@ -2,7 +2,8 @@
 
     dask_program.py --workers N [--scheduler ADDRESS]
 
-Output: "slots N", then "end ID EXIT_CODE" for each worker that has ended. Input: one line of JSON for each worker,
+Output: "slots N", then "end ID EXIT_CODE" for each worker that has ended, and "workers N" when the number of workers of Dask
+has changed. Input: one line of JSON for each worker,
 {"id": 3, "words": ["faba", "study", "work", ...], "log": "FILE"}. At the end of the input the program cancels what runs
 and exits. A Dask worker that is lost makes Dask run its task again.
 """
@@ -13,6 +14,7 @@ import os
 import subprocess
 import sys
 import threading
+import time
 
 import dask.distributed as dd
 
@@ -47,7 +49,17 @@ def main():
         futures.pop(number, None)
         say(f"end {number} {code}")
 
+    def watch():
+        """Reports the number of workers; without any, nothing is computed."""
+        before = None
+        while True:
+            if client.status == "running" and (now := len(client.scheduler_info()["workers"])) != before:
+                before = now
+                say(f"workers {now}")
+            time.sleep(1)
+
     say(f"slots {max(1, slots)}")
+    threading.Thread(target=watch, daemon=True).start()
     futures = {}
     for line in sys.stdin:
         job = json.loads(line)

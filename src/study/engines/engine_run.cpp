@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/monotonic.h"
 #include "study/engines/chunk_size.h"
+#include "study/engines/process.h"
 #include "study/sweep/study_directory.h"
 
 namespace faba {
@@ -18,25 +19,29 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr double kReadPeriod = 0.1;    // s, between two readings of the result files
-constexpr double kTroublePeriod = 30;  // s, between two notes on what hinders the engine
+constexpr double kTroubleTime = 5;     // s, of trouble before it is reported
+constexpr double kMeasuringTime = 30;  // s, of workers without a result: tasks take longer
 constexpr double kRetryPeriod = 5;     // s, between two submissions that the engine does not accept
 constexpr int kUsageExit = 2;          // of a worker that refuses the study
 constexpr int kMostFruitless = 30;     // workers in succession that end without a result
+constexpr std::size_t kMostNotes = 5;  // about different ends of workers
 // Ranges in the list of tasks of a worker: the list is one word of a command, at most 128 KiB on Linux.
 constexpr std::size_t kMostRanges = 5000;
 
-// First line of the messages of a worker.
-std::string first_line(const fs::path& file) {
-  std::ifstream in(file);
-  std::string line;
-  std::getline(in, line);
+// The error of a worker, or the first line of its messages, such as those of the environment lines.
+std::string message_in(const fs::path& log) {
+  std::ifstream in(log);
   const std::string prefix = "faba: error: ";
-  return line.starts_with(prefix) ? line.substr(prefix.size()) : line;
+  std::string first;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with(prefix)) return line.substr(prefix.size());
+    if (first.empty()) first = line;
+  }
+  return first;
 }
 
-void remove_if_empty(const fs::path& log) {
-  std::error_code ec;
-  if (fs::file_size(log, ec) == 0 && !ec) fs::remove(log, ec);
+std::string joined(const std::string& how, const std::string& message) {
+  return message.empty() ? how : how + ": " + message;
 }
 
 }  // namespace
@@ -56,7 +61,14 @@ struct EngineRun::State {
   std::map<std::uint64_t, std::string> failed = {};
   int fruitless = 0;      ///< ends without a result in succession
   std::size_t known = 0;  ///< results in the store at the last end
-  double read_at = 0, troubled_at = 0, refused_until = 0;
+  double read_at = 0, untroubled_at = 0, refused_until = 0;
+  double checked_at = 0, worked = 0;  ///< s; `worked`: time with running workers, before the first result
+
+  // Time of a task. Without a result it is unknown, or longer than the time for which workers run.
+  std::optional<double> seconds_per_task() const {
+    const auto seconds = store.seconds_per_task(key);
+    return seconds || worked < kMeasuringTime ? seconds : worked;
+  }
 
   void close(std::uint64_t task) {
     if (!open[task]) return;
@@ -100,9 +112,13 @@ bool EngineRun::operator()(const Round& round, ResultStore& store) {
     wait(s);
     take_ended(s);
     read_results(s);
-    reports_.progress(round.size - s.left - s.failed.size(), round.size);
+    reports_.progress(round.size - s.left - s.failed.size(), round.size, waiting_for());
   }
-  engine_->cancel();  // attempts whose tasks were completed by others
+  engine_->cancel();
+  for (const auto& [_, r] : s.running) {
+    log_.add(r.attempt.results.stem().string(), "complete", "", "all results of the round were read");
+    remove_if_empty(r.attempt.log);
+  }
   if (!s.failed.empty()) throw failed_tasks(round, s.failed, s.planned.first, kMostAttempts);
   return true;
 }
@@ -111,16 +127,15 @@ bool EngineRun::operator()(const Round& round, ResultStore& store) {
 void EngineRun::fill(State& s) {
   while (!s.queue.empty() && !s.open[s.queue.front()]) s.queue.pop_front();
   if (s.queue.empty() || monotonic_now() < s.refused_until) return;
-  const bool measured = s.store.seconds_per_task(s.key).has_value();
+  const bool measured = s.seconds_per_task().has_value();
   if (const std::size_t most = engine_->accepts(s.running.size(), measured); most > 0) submit(s, most);
 }
 
 // At most `most` attempts, of equal size.
 void EngineRun::submit(State& s, std::size_t most) {
   std::vector<Running> next;
-  const std::uint64_t open = s.queue.size(), workers = std::min<std::size_t>(most, engine_->slots());
-  const ChunkSize size{open, engine_->slots(), s.store.seconds_per_task(s.key), engine_->queues()};
-  const std::uint64_t each = std::min(size.tasks(), (open + workers - 1) / workers);  // work for all of them
+  const ChunkSize size{s.queue.size(), engine_->slots(), s.seconds_per_task(), engine_->queues()};
+  const std::uint64_t each = size.tasks();
   while (!s.queue.empty() && next.size() < most) {
     Running r = next_attempt(s, each);
     if (!r.tasks.empty()) next.push_back(std::move(r));
@@ -130,6 +145,7 @@ void EngineRun::submit(State& s, std::size_t most) {
   for (const Running& r : next) attempts.push_back(r.attempt);
   if (!engine_->submit(attempts)) {
     s.refused_until = monotonic_now() + kRetryPeriod;
+    attempts_ -= next.size();  // the next try has the same files
     for (auto it = next.rbegin(); it != next.rend(); ++it)
       s.queue.insert(s.queue.begin(), it->tasks.begin(), it->tasks.end());
     return;
@@ -175,15 +191,15 @@ void EngineRun::take_ended(State& s) {
     if (it == s.running.end()) continue;
     const Running ended = std::move(it->second);
     s.running.erase(it);
-    take_left(s, ended, end);
     remove_if_empty(ended.attempt.log);
+    take_left(s, ended, end);
   }
 }
 
 // Submits again what a worker that ended has left.
 void EngineRun::take_left(State& s, const Running& ended, const AttemptEnd& how) {
-  const std::string name = ended.attempt.results.stem().string(), message = first_line(ended.attempt.log);
-  std::vector<std::uint64_t> left, numbers;
+  const std::string name = ended.attempt.results.stem().string(), message = message_in(ended.attempt.log);
+  std::vector<std::uint64_t> left;
   const auto failures = s.store.failures(s.key);
   bool failed = false;           // a task, with a recorded reason
   bool charged = how.exit == 0;  // the first task without a record is the one that the worker computed
@@ -197,46 +213,73 @@ void EngineRun::take_left(State& s, const Running& ended, const AttemptEnd& how)
       ++s.deaths[task];
       charged = true;
     }
-    if (failures_now + s.deaths[task] >= kMostAttempts) {
-      s.failed[task] = failures_now > 0 ? recorded->second.what
-                                        : fmt::format("the worker ended with {}{}{}", how.how,
-                                                      message.empty() ? "" : ": ", message);
+    const int times = failures_now + s.deaths[task];
+    const std::string reason =
+        failures_now > 0 ? recorded->second.what : "the worker ended with " + joined(how.text(), message);
+    const bool given_up = times >= kMostAttempts;
+    if (failures_now > 0 || given_up)
+      log_.add(name, given_up ? "task failed" : "task error", std::to_string(s.planned.first + task), reason);
+    if (given_up) {
+      s.failed[task] = reason;
       s.close(task);
-      log_.add(name, "task failed", std::to_string(s.planned.first + task), s.failed[task]);
-      continue;
+    } else {
+      left.push_back(task);
     }
-    left.push_back(task);
-    numbers.push_back(s.planned.first + task);
   }
   s.queue.insert(s.queue.begin(), left.begin(), left.end());
-  log_.add(name, left.empty() ? "complete" : "left tasks", number_list(numbers),
-           message.empty() ? how.how : how.how + ": " + message);
+  log_end(s, ended, how, left, failed);
   const bool fruitful = s.store.size() > s.known || failed || (left.empty() && how.exit == 0);
   s.fruitless = fruitful ? 0 : s.fruitless + 1;
   s.known = s.store.size();
+  check_end(s, ended, how);
+}
+
+void EngineRun::log_end(State& s, const Running& ended, const AttemptEnd& how,
+                        const std::vector<std::uint64_t>& left, bool failed) {
+  const std::string name = ended.attempt.results.stem().string(), message = message_in(ended.attempt.log);
+  std::vector<std::uint64_t> numbers;
+  for (const std::uint64_t task : left) numbers.push_back(s.planned.first + task);
+  const char* event = !left.empty() ? "left tasks" : failed || how.exit != 0 ? "ended" : "complete";
+  log_.add(name, event, number_list(numbers), joined(how.text(), message));
+  const bool normal = how.exit == 0 && message.empty();
+  if (normal || noted_.size() >= kMostNotes || !noted_.insert(how.how).second) return;
+  reports_.note(fmt::format("attempt {} ended with {}{}", name, joined(how.text(), message),
+                            left.empty() ? "" : "; its tasks are submitted again"));
+}
+
+// Throws when other workers would end in the same way.
+void EngineRun::check_end(State& s, const Running& ended, const AttemptEnd& how) {
+  const std::string message = message_in(ended.attempt.log);
   if (how.exit == kUsageExit) {
     engine_->cancel();
-    throw Error(Errc::usage, "", "a worker refused the study: " + (message.empty() ? how.how : message));
+    throw Error(Errc::usage, "", "a worker refused the study: " + (message.empty() ? how.text() : message));
   }
-  if (s.fruitless >= kMostFruitless) {
-    engine_->cancel();
-    throw Error(
-        Errc::internal, ended.attempt.log.string(),
-        fmt::format("the last {} workers ended without a result ({}{}{}); correct the settings of the "
-                    "engine and run the same command again",
-                    s.fruitless, how.how, message.empty() ? "" : ": ", message));
-  }
+  if (s.fruitless < kMostFruitless) return;
+  engine_->cancel();
+  throw Error(
+      Errc::internal, message.empty() ? "" : ended.attempt.log.string(),
+      fmt::format("the last {} workers ended without a result ({}); correct the settings of the "
+                  "engine and run the same command again. {} lists how they ended",
+                  s.fruitless, joined(how.text(), message), (dir_ / study_files::kAttempts).string()));
 }
 
 void EngineRun::wait(State& s) {
   std::this_thread::sleep_for(std::chrono::duration<double>(engine_->period_s()));
   const std::string trouble = engine_->trouble();
   const double now = monotonic_now();
-  if (trouble.empty()) s.troubled_at = now;
-  if (now - s.troubled_at < kTroublePeriod) return;
-  s.troubled_at = now;
+  if (!s.running.empty() && waiting_for().empty() && s.checked_at > 0) s.worked += now - s.checked_at;
+  s.checked_at = now;
+  if (trouble.empty()) s.untroubled_at = now;
+  if (trouble == trouble_ || now - s.untroubled_at < kTroubleTime) return;
+  trouble_ = trouble;
   log_.add(run_name_, "engine", "", trouble);
   reports_.note(trouble);
+}
+
+// Text for the progress bar; empty while workers run.
+std::string EngineRun::waiting_for() const {
+  const std::string reason = engine_->waiting();
+  return reason.empty() ? engine_->trouble() : "waiting for the queue: " + reason;
 }
 
 }  // namespace faba

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,10 @@ namespace faba {
 class EngineRun {
  public:
   struct Reports {
-    std::function<void(std::uint64_t done, std::uint64_t total)> progress;
+    /// `waiting`: what the workers wait for; empty: they run.
+    std::function<void(std::uint64_t done, std::uint64_t total, const std::string& waiting)> progress;
     std::function<bool()> stop;
-    std::function<void(const std::string&)> note;  ///< a sentence about what hinders the engine
+    std::function<void(const std::string&)> note;  ///< what hinders the engine, how a worker died
   };
   /// `name`: of the engine, for the log. `dir`: directory of the study, absolute.
   EngineRun(std::unique_ptr<Engine> engine, const std::string& name, std::filesystem::path dir,
@@ -48,7 +50,11 @@ class EngineRun {
   void read_results(State& s);
   void take_ended(State& s);
   void take_left(State& s, const Running& ended, const AttemptEnd& how);
+  void log_end(State& s, const Running& ended, const AttemptEnd& how, const std::vector<std::uint64_t>& left,
+               bool failed);
+  void check_end(State& s, const Running& ended, const AttemptEnd& how);
   void wait(State& s);
+  std::string waiting_for() const;
 
   std::filesystem::path dir_;
   Reports reports_;
@@ -56,7 +62,9 @@ class EngineRun {
   AttemptLog log_;
   std::unique_ptr<Engine> engine_;
   std::uint64_t attempts_ = 0;
-  std::string run_name_;  ///< of this process, in the names of its files
+  std::string run_name_;         ///< of this process, in the names of its files
+  std::string trouble_;          ///< last note on the engine
+  std::set<std::string> noted_;  ///< how workers ended
 };
 
 }  // namespace faba

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "core/error.h"
 #include "core/toml.h"
@@ -12,6 +13,28 @@ namespace faba {
 namespace {
 
 constexpr std::array kEngines = {"local", "parallel", "slurm", "dask"};
+
+// Engines that use a key; all others are for every engine.
+const std::map<std::string, std::vector<EngineType>>& engines_of_keys() {
+  using enum EngineType;
+  static const std::map<std::string, std::vector<EngineType>> all{
+      {"scheduler", {dask}},  {"hosts", {parallel}},
+      {"partition", {slurm}}, {"account", {slurm}},
+      {"time", {slurm}},      {"options", {slurm}},
+      {"python", {dask}},     {"environment", {slurm, parallel}}};
+  return all;
+}
+
+// A file can have settings of several engines; an option is for the engine of the command.
+void check_use(const std::string& option, EngineType type) {
+  const auto it = engines_of_keys().find(option.substr(0, option.find_first_of("=[")));
+  if (it == engines_of_keys().end() || std::ranges::find(it->second, type) != it->second.end()) return;
+  std::vector<std::string> names;
+  for (const EngineType engine : it->second) names.push_back(engine_name(engine));
+  throw Error(Errc::usage, "--engine-set",
+              fmt::format("{} is not used by the engine {}, but by {}", it->first, engine_name(type),
+                          fmt::join(names, " and ")));
+}
 
 }  // namespace
 
@@ -38,7 +61,11 @@ Schema<EngineSettings> EngineSettings::schema() {
                    "machine"})
       .add("partition", &E::partition, {.doc = "slurm: partition; default: that of the cluster"})
       .add("account", &E::account, {.doc = "slurm: account"})
-      .add("time", &E::time, {.unit = "s", .min = 60, .max = 1e7, .doc = "slurm: time limit of a job"})
+      .add("time", &E::time,
+           {.unit = "s",
+            .min = 180,
+            .max = 1e7,
+            .doc = "slurm: time limit of a job; a worker is asked to end 1 to 2 min before it"})
       .add("options", &E::options, {.doc = "slurm: further options of sbatch, such as \"--mem=2G\""})
       .add("environment", &E::environment,
            {.doc = "Lines of shell before each worker, such as \"module load gcc\" (slurm, parallel)"})
@@ -78,7 +105,9 @@ EngineSettings engine_settings(const std::string& engine, const std::vector<std:
   const Node root(d);
   if (!root.has("engine"))
     throw Error(Errc::usage, engine, "has no table [engine]; write [engine] with type = \"slurm\"");
-  return EngineSettings::schema().parse(root.child("engine"));
+  const EngineSettings s = EngineSettings::schema().parse(root.child("engine"));
+  for (const std::string& option : options) check_use(option, s.type);
+  return s;
 }
 
 }  // namespace faba

@@ -12,4 +12,8 @@ std::unique_ptr<Engine> parallel_engine(const EngineSettings& settings, const Wo
 std::unique_ptr<Engine> slurm_engine(const EngineSettings& settings, const WorkerCommand& worker);
 std::unique_ptr<Engine> dask_engine(const EngineSettings& settings, const WorkerCommand& worker);
 
+/// Cancels the Slurm jobs that a command on the directory of a study has left in the queue, because it was
+/// killed. Returns a sentence on them; empty: there are none.
+std::string cancel_slurm_jobs(const std::filesystem::path& study);
+
 }  // namespace faba

@@ -23,6 +23,7 @@ constexpr int kSshFailed = 255;  // exit code of ssh when the host is not reache
 /// One call of GNU parallel with the attempts of one submission.
 struct ParallelCall {
   pid_t process = -1;
+  fs::path list;                   ///< tasks and files of each attempt
   fs::path joblog;                 ///< one line for each attempt that ended
   fs::path log;                    ///< messages of GNU parallel and ssh
   std::vector<std::uint64_t> ids;  ///< of the attempts, in their order
@@ -38,6 +39,7 @@ class ParallelEngine final : public Engine {
       if (!program_exists(program))
         throw Error(Errc::usage, "--engine parallel",
                     fmt::format("the program {} is not installed; install the package {}", program, package));
+    check_hosts();
     slots_ = settings_.workers > 0
                  ? unsigned(settings_.workers) * unsigned(std::max<std::size_t>(1, settings_.hosts.size()))
              : settings_.hosts.empty() ? number_of_threads(0)
@@ -57,7 +59,8 @@ class ParallelEngine final : public Engine {
   bool submit(std::span<const Attempt> attempts) override {
     ParallelCall call;
     const std::string name = attempts.front().results.stem().string() + "-parallel";
-    const fs::path jobs = worker_.directory / study_files::kJobs, list = jobs / (name + ".list");
+    const fs::path jobs = worker_.directory / study_files::kJobs;
+    call.list = jobs / (name + ".list");
     call.joblog = jobs / (name + ".joblog");
     call.log = jobs / (name + ".log");
     std::string lines;
@@ -66,8 +69,8 @@ class ParallelEngine final : public Engine {
       call.ids.push_back(a.id);
     }
     call.ended.resize(attempts.size());
-    write_file(list, lines);
-    call.process = start_process(words(list, call.joblog), {.log = call.log});
+    write_file(call.list, lines);
+    call.process = start_process(words(call.list, call.joblog), {.log = call.log});
     calls_.push_back(std::move(call));
     return true;
   }
@@ -79,7 +82,8 @@ class ParallelEngine final : public Engine {
       read_joblog(call, ends);
       if (!over) continue;
       for (std::size_t k = 0; k < call.ids.size(); ++k)
-        if (!call.ended[k]) ends.push_back({call.ids[k], "GNU parallel has ended", -1});
+        if (!call.ended[k]) ends.push_back({call.ids[k], "GNU parallel has ended", -1, {}, message_of(call)});
+      remove_files(call);
       call.process = -1;
     }
     std::erase_if(calls_, [](const ParallelCall& c) { return c.process < 0; });
@@ -90,11 +94,39 @@ class ParallelEngine final : public Engine {
   void cancel() override {
     for (int times = 0; times < 2; ++times)
       for (const ParallelCall& call : calls_) kill(call.process, SIGTERM);
-    for (const ParallelCall& call : calls_) end_child(call.process, 2);
+    for (const ParallelCall& call : calls_) {
+      end_child(call.process, 2);
+      remove_files(call);
+    }
     calls_.clear();
   }
 
  private:
+  static std::string message_of(const ParallelCall& call) {
+    const std::string message = first_message(call.log);
+    return message.empty() ? "" : fmt::format("{}, see {}", message, call.log.string());
+  }
+
+  static void remove_files(const ParallelCall& call) {
+    std::error_code ec;
+    for (const fs::path& file : {call.list, call.joblog}) fs::remove(file, ec);
+    remove_if_empty(call.log);
+  }
+
+  // GNU parallel reports a wrong number as an error of its own.
+  void check_hosts() const {
+    for (const std::string& host : settings_.hosts) {
+      const auto slash = host.find('/');
+      if (slash == std::string::npos || host.starts_with("@") ||
+          host.substr(0, slash).find_first_not_of("0123456789") == std::string::npos)
+        continue;
+      throw Error(Errc::usage, "--sshlogin",
+                  fmt::format("\"{}\" does not start with a number of workers; write NUMBER/HOST, such as "
+                              "4/user@pc2",
+                              host));
+    }
+  }
+
   // "4/user@host" has four workers; a host without a number has one.
   unsigned slots_of_hosts() const {
     unsigned sum = 0;
@@ -106,12 +138,11 @@ class ParallelEngine final : public Engine {
   }
 
   std::vector<std::string> words(const fs::path& list, const fs::path& joblog) const {
-    std::string command;
+    std::string command = "exec 2>> {3}; ";
     for (const std::string& line : settings_.environment) command += line + "; ";
     const Attempt pattern{0, "{1}", "{2}", "{3}"};
     for (const std::string& word : worker_.words(pattern))
       command += (word.starts_with("{") ? word : shell_word(word)) + " ";
-    command += "2> {3}";
     // setpriv: without this command, GNU parallel ends its jobs and itself.
     std::vector<std::string> w{"setpriv",
                                "--pdeathsig",
@@ -147,9 +178,8 @@ class ParallelEngine final : public Engine {
         continue;
       if (number < 1 || number > call.ids.size() || call.ended[number - 1]) continue;
       call.ended[number - 1] = true;
-      std::string how = end_text(signal != 0 ? -signal : exit);
-      if (exit == kSshFailed) how += ", " + last_message(call.log);
-      ends.push_back({call.ids[number - 1], how, signal != 0 ? -1 : exit});
+      ends.push_back({call.ids[number - 1], end_text(signal != 0 ? -signal : exit), signal != 0 ? -1 : exit,
+                      fmt::format("host {}", host), exit == kSshFailed ? message_of(call) : ""});
     }
   }
 

@@ -73,12 +73,31 @@ CommandOutput run_command(const std::vector<std::string>& words, bool with_error
   return c;
 }
 
-std::string last_message(const std::filesystem::path& log) {
+namespace {
+
+std::vector<std::string> messages(const std::filesystem::path& log) {
   std::ifstream in(log);
-  std::string last;
+  std::vector<std::string> lines;
   for (std::string line; std::getline(in, line);)
-    if (!line.empty() && line.find("Warning") == std::string::npos) last = line;
-  return last;
+    if (!line.empty() && line.find("Warning") == std::string::npos) lines.push_back(line);
+  return lines;
+}
+
+}  // namespace
+
+std::string first_message(const std::filesystem::path& log) {
+  const auto lines = messages(log);
+  return lines.empty() ? "" : lines.front();
+}
+
+std::string last_message(const std::filesystem::path& log) {
+  const auto lines = messages(log);
+  return lines.empty() ? "" : lines.back();
+}
+
+void remove_if_empty(const std::filesystem::path& log) {
+  std::error_code ec;
+  if (std::filesystem::file_size(log, ec) == 0 && !ec) std::filesystem::remove(log, ec);
 }
 
 bool program_exists(const std::string& name) {

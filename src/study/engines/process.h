@@ -33,8 +33,12 @@ struct CommandOutput {
 /// `with_errors`, and then is part of `out`.
 CommandOutput run_command(const std::vector<std::string>& words, bool with_errors = false);
 
-/// The last line of a log that is not empty and not a warning.
+/// The first and the last line of a log that is neither empty nor a warning.
+std::string first_message(const std::filesystem::path& log);
 std::string last_message(const std::filesystem::path& log);
+
+/// Removes a log without messages.
+void remove_if_empty(const std::filesystem::path& log);
 
 /// Whether a program is found by PATH.
 bool program_exists(const std::string& name);

@@ -42,12 +42,6 @@ std::optional<std::string> hash_of_study_in(const fs::path& dir) {
   return {};
 }
 
-// Empty for a study of an earlier version, which stored it elsewhere.
-std::string version_in(const fs::path& dir) {
-  const OrderedJson j = study_in(dir);
-  return j.is_object() ? j.value("version", "") : "";
-}
-
 // The path of the study file is stored as given, relative to the directory and absolute, because workers can
 // have another working directory and another mount point. Without a study file the same holds for the working
 // directory.
@@ -107,6 +101,11 @@ bool holds_complete_study(const fs::path& dir, const std::string& study_hash) {
   return hash_of_study_in(dir) == study_hash && !fs::exists(dir / kMarker);
 }
 
+std::string version_of_study(const fs::path& dir) {
+  const OrderedJson j = study_in(dir);
+  return j.is_object() ? j.value("version", "") : "";
+}
+
 StudyDirectory::~StudyDirectory() {
   if (!new_ || complete_ || !results_ || !results_->empty()) return;
   for (const char* name : {kRounds, kResults, kJobs})
@@ -133,14 +132,14 @@ StudyDirectory::StudyDirectory(const fs::path& dir, const std::string& study_has
   const auto existing = hash_of_study_in(dir);
   if (!existing && !fs::is_empty(dir, ec))
     throw Error(Errc::usage, dir.string(), "contains other files and no study; choose another directory");
-  const bool same = existing == study_hash && version_in(dir) == program_version();
+  const bool same = existing == study_hash && version_of_study(dir) == program_version();
   if (existing == study_hash && !same && !force)
     throw Error(
         Errc::usage, dir.string(),
         fmt::format(
             "contains results of this study by faba {}, this is faba {}; continue it with that program, "
             "choose another directory, or --force to compute it again",
-            version_in(dir), program_version()));
+            version_of_study(dir), program_version()));
   if (existing && !same && !force)
     throw Error(Errc::usage, dir.string(),
                 "contains a different study; choose another directory, or --force to replace it");

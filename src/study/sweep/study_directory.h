@@ -41,6 +41,8 @@ StoredStudy stored_study(const std::filesystem::path& dir);
 
 /// Whether `dir` contains the complete study with this hash.
 bool holds_complete_study(const std::filesystem::path& dir, const std::string& study_hash);
+/// Version of the program that wrote the study in `dir`; empty for one of an earlier version.
+std::string version_of_study(const std::filesystem::path& dir);
 /// Throws Error(input) if one of these directories does not exist or contains no study, Error(usage) if it
 /// contains a different one.
 void check_merge(const std::vector<std::filesystem::path>& dirs, const std::string& study_hash);

@@ -25,12 +25,19 @@ class TestEngine final : public Engine {
   std::map<std::uint64_t, int> dies;
   std::set<std::uint64_t> fails;
   int exit_of_all = 0;
+  int refusals = 0;  ///< submissions that are not accepted at first
 
   unsigned slots() const override { return 2; }
   double period_s() const override { return 0.001; }
   void cancel() override {}
   bool submit(std::span<const Attempt> attempts) override {
+    if (refusals-- > 0) {
+      refused_.push_back(attempts.front().results);
+      return false;
+    }
     for (const Attempt& a : attempts) ends_.push_back(run(a));
+    if (!refused_.empty()) CHECK(refused_.back() == attempts.front().results);  // no new files for a retry
+    refused_.clear();
     return true;
   }
   std::vector<AttemptEnd> ended() override { return std::exchange(ends_, {}); }
@@ -52,6 +59,7 @@ class TestEngine final : public Engine {
   }
   std::uint64_t key_, first_;
   std::vector<AttemptEnd> ends_;
+  std::vector<std::filesystem::path> refused_;
 };
 
 /// A round of 50 tasks in a folder.
@@ -61,10 +69,12 @@ struct Study {
   Round round{"tasks", 50, {}};
   TestEngine tasks{store.key(round), 1};  ///< copied for each run
   bool run() {
-    EngineRun::Reports reports{[](auto, auto) {}, [] { return false; }, [](const std::string&) {}};
+    EngineRun::Reports reports{[](auto, auto, const auto&) {}, [] { return false; },
+                               [this](const std::string& text) { notes.push_back(text); }};
     EngineRun all(std::make_unique<TestEngine>(tasks), "test", folder.path(), std::move(reports));
     return all(round, store);
   }
+  std::vector<std::string> notes = {};
   std::string log() const { return read_file(folder.path() / "attempts.csv"); }
 };
 
@@ -81,6 +91,15 @@ TEST_CASE("workers that die are replaced, and every task has its result") {
   }
   CHECK(s.log().find("left tasks") != std::string::npos);
   CHECK(s.log().find("signal 9") != std::string::npos);
+  REQUIRE(s.notes.size() == 1);  // one for each kind of end
+  CHECK(s.notes[0].find("ended with signal 9; its tasks are submitted again") != std::string::npos);
+}
+
+TEST_CASE("an attempt that the engine does not accept is submitted again with the same files") {
+  Study s;
+  s.tasks.refusals = 1;
+  CHECK(s.run());
+  CHECK(s.store.size() == 50);
 }
 
 TEST_CASE(
@@ -98,6 +117,8 @@ TEST_CASE(
   CHECK_MESSAGE(message.find("task 20: the worker ended with signal 9") != std::string::npos, message);
   CHECK_MESSAGE(message.find("task 31: no cells") != std::string::npos, message);
   CHECK(s.store.size() == 48);
+  CHECK(s.log().find(",task error,31,no cells") != std::string::npos);
+  CHECK(s.log().find(",task failed,31,no cells") != std::string::npos);
   // The same command tries the failed tasks again, and no other.
   s.tasks.dies.clear();
   s.tasks.fails.clear();
@@ -122,7 +143,8 @@ TEST_CASE("an engine with a queue accepts attempts when half of it is used") {
     double period_s() const override { return 1; }
     void cancel() override {}
   };
-  CHECK(Queue().accepts(0, false) == 6);
+  CHECK(Queue().accepts(0, false) == 3);  // they measure the time of a task
+  CHECK(Queue().accepts(1, false) == 0);
   CHECK(Queue().accepts(0, true) == 12);
   CHECK(Queue().accepts(6, true) == 6);
   CHECK(Queue().accepts(7, true) == 0);
@@ -139,7 +161,7 @@ TEST_CASE("a round whose every second task has a result is computed, although li
   const std::uint64_t key = store.key(round);
   const std::vector<double> value{1};
   for (std::uint64_t i = 0; i < round.size; i += 2) store.add({key, i}, value, 1e-6);
-  EngineRun::Reports reports{[](auto, auto) {}, [] { return false; }, [](const std::string&) {}};
+  EngineRun::Reports reports{[](auto, auto, const auto&) {}, [] { return false; }, [](const std::string&) {}};
   EngineRun run(std::make_unique<TestEngine>(key, 1), "test", folder.path(), std::move(reports));
   CHECK(run(round, store));
   CHECK(store.size() == round.size);
@@ -154,11 +176,19 @@ TEST_CASE("chunks take at most 60 s, less at the end, one task while the time is
   CHECK(ChunkSize{10, 2, 100, false}.tasks() == 1);
   CHECK(ChunkSize{2000, 3, 0.05, true}.tasks() == 166);
   CHECK(ChunkSize{2000, 2, 0.005, true}.tasks() == 1000);  // 5 s
+  CHECK(ChunkSize{112, 100, {}, true}.tasks() == 1);
+  CHECK(ChunkSize{112, 100, 0.015, true}.tasks() == 67);  // 1 s, although most workers get nothing
+  CHECK(ChunkSize{112, 100, 3, true}.tasks() == 1);
 }
 
 TEST_CASE("settings of an engine: name or file, and single values") {
   CHECK(engine_settings("slurm", {"partition=short", "time=2 h"}).time == doctest::Approx(7200));
   CHECK(engine_settings("slurm", {"partition=short"}).partition == "short");
+  CHECK_THROWS_WITH(engine_settings("local", {"partition=short"}),
+                    doctest::Contains("partition is not used by the engine local, but by slurm"));
+  CHECK_THROWS_WITH(engine_settings("dask", {"environment=[\"x\"]"}),
+                    doctest::Contains("but by slurm and parallel"));
+  CHECK_THROWS_WITH(engine_settings("slurm", {"time=60 s"}), doctest::Contains("180"));
   CHECK_THROWS_WITH(engine_settings("slrum", {}), doctest::Contains("did you mean \"slurm\""));
   CHECK_THROWS_WITH(engine_settings("slurm", {"partitoin=a"}),
                     doctest::Contains("did you mean \"partition\""));
