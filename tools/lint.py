@@ -21,7 +21,7 @@ def units(build):
     """The translation units of the program; a unity file includes ten files of src."""
     entries = json.loads((build / "compile_commands.json").read_text())
     files = {pathlib.Path(e["file"]) for e in entries}
-    return sorted(f for f in files if f.suffix in (".cpp", ".cxx") and "bench" not in f.relative_to(build.parent.parent).parts)
+    return sorted(f for f in files if f.suffix in (".cpp", ".cxx") and f.name != "program_version.cpp" and "bench" not in f.relative_to(build.parent.parent).parts)
 
 
 def findings(build, file):

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Studies on engines: `faba identify`, `faba calibrate` and `faba compare-controllers` by plan, work and collect, and with --engine
 local, parallel, dask and slurm, give the files of one process byte by byte, and so do `faba activity` and `faba track` with several
-videos. With --kills, processes of each kind are killed in the middle, twice each, and a worker of `faba calibrate` once. A task has no process of its own: it runs in its worker, so
-that killing `faba study work` kills a task, and killing its parent process (of Dask, of GNU parallel, or the slurmd of a node)
-what started it. Engines whose packages are missing are skipped; the exit code is then 77.
+videos. With --kills, processes of each kind are killed in the middle, twice each, and a worker of `faba calibrate` once. A task has no
+process of its own: it runs in its worker, so that killing `faba study work` kills a task, and killing its parent process (of Dask, of
+GNU parallel, or the slurmd of a node) what started it. Engines whose packages are missing are skipped; the exit code is then 77.
 
     study_engines_test.py --program build/faba [--kills] [--only NAME]..."""
 
@@ -20,75 +20,10 @@ import tempfile
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import slurm_checks
 import slurm_cluster
+from engine_studies import CALIBRATION, CONTROLLERS, FILM, IDENTIFY, STEER
 
-WORLD = """
-[arena]
-type = "box"
-size_px = [160, 120]
-[[swarm]]
-count = 40
-model = { type = "basic", max_speed = 4 }
-start = { type = "edge", direction = "180 deg" }
-"""
-FILM = """duration = "3.2 s"
-[scale]
-um_per_px = 1.2
-[microscope]
-cell_diameter = "2.5 um"
-[controller]
-type = "manual"
-field = ["69 uT", "0 T"]
-[[controller.segment]]
-at = "0.6 s"
-field = ["-69 uT", "0 T"]
-[record]
-as_seen = true
-lossless = true
-tracks = false
-""" + WORLD
-IDENTIFY = """boundary = "box"
-look = "positions"
-simulations = 150
-reversal = "0.6 s"
-direction = 0
-duration = "2.4 s"
-field_strength = "69 uT"
-legacy = true
-[[video]]
-file = "film"
-[[model]]
-type = "basic"
-free = { "swarm[0].model.max_speed" = [1, 12] }
-[[model]]
-type = "dipole"
-speed_sd = "10 um/s"
-free = { "swarm[0].model.speed" = ["10 um/s", "200 um/s"] }
-"""
-CALIBRATION = """study = "identify.toml"
-models = ["basic"]
-experiments = 20
-seed = 5
-[[misspecified]]
-name = "the times are exact"
-timing = "0 s"
-experiments = 4
-"""
-STEER = """duration = "DURATION"
-[controller]
-type = "fuzzy"
-[reference]
-type = "hold"
-setpoint_px = [80, 60]
-""" + WORLD
-CONTROLLERS = """scene = "steer.toml"
-seeds = SEEDS
-delays = [0, 2]
-[[controller]]
-type = "fuzzy"
-[[controller]]
-type = "proportional"
-"""
 OUTPUTS = ("identify.json", "identify.html", "best.toml", "background.png", "calibration.json", "calibration.html", "controllers.json", "controllers.csv", "report.html")
 VERB = {"identify": "identify", "calibration": "calibrate", "controllers": "compare-controllers"}
 VIDEOS = ("film/video.avi", "film-2/video.avi", "film-3/video.avi")
@@ -384,114 +319,6 @@ def dask_without_workers(test):
     scheduler.wait()
 
 
-def run_slurm(test, kills):
-    why = slurm_cluster.missing()
-    if why:
-        return test.skip(f"slurm: {why}")
-    cluster = slurm_cluster.Cluster(test.folder / "slurm")
-    try:
-        test.engine("slurm", "--workers", 3)
-        twice(test)
-        mistakes(test)
-        if kills:
-            test.kill_workers("slurm", "--workers", 3)
-            signal_jobs(test)
-            kill_node(test, cluster)
-            kill_controller(test, cluster)
-    finally:
-        cluster.stop()
-
-
-def twice(test):
-    """One study in two directories at the same time: neither command cancels the jobs of the other."""
-    outs = ("twice-1", "twice-2")
-    runs = [test.start("compare-controllers", "controllers.toml", "--quiet", "--out", out, "--engine", "slurm", "--workers", 3) for out in outs]
-    for out, run in zip(outs, runs):
-        test.check(run.wait() == 0, f"slurm, {out}")
-        test.equal("controllers", out, f"slurm, {out}")
-        test.check("left tasks" not in test.log(out), f"slurm, {out}: no attempt left tasks")
-
-
-def mistakes(test):
-    """What a user meets on a new cluster: settings that it does not have, unusual paths, jobs that never start or fail."""
-    command = ("compare-controllers", "controllers.toml", "--quiet", "--engine", "slurm", "--workers", 3)
-    folder = test.folder / "my lab's 50%a"
-    folder.mkdir()
-    for name in ("controllers.toml", "steer.toml"):
-        shutil.copy(test.folder / name, folder)
-    done = test.faba(*command, "--out", "my study", cwd=folder)
-    test.check(done.returncode == 0, f"slurm: blank, apostrophe and percent sign in the path {done.stderr}")
-    test.equal("controllers", folder / "my study", "slurm, unusual path")
-
-    for setting, key in (("partition=none", "partition"), ('options=["--mem=900G"]', "options"), ('options=["--nonsense"]', "options")):
-        done = test.faba(*command, "--out", "refused-jobs", "--engine-set", setting)
-        test.check(done.returncode == 2 and f"correct {key} in [engine]" in done.stderr, f"slurm, {setting}: {done.stderr.strip()}")
-
-    done = test.faba(*command, "--out", "environment", "--engine-set", 'environment=["module load none"]')
-    logs = [log for log in (test.folder / "environment/jobs").glob("*") if log.suffix != ".log" or not log.stat().st_size]
-    test.check(done.returncode == 0 and "module: command not found" in (test.folder / "environment/attempts.csv").read_text(),
-               f"slurm: messages of the environment lines are recorded {done.stderr}")
-    test.check(not logs, f"slurm: scripts, lists and empty logs are removed {logs}")
-
-    # Jobs above the time limit of the partition wait for ever; then the coordinator is killed, and another engine completes the study.
-    run = test.start(*command, "--out", "brief", "--engine-set", "partition=brief")
-    attempts = test.folder / "brief/attempts.csv"
-    for _ in range(200):
-        if attempts.exists() and "all jobs of Slurm wait: Partition" in attempts.read_text():
-            break
-        time.sleep(0.1)
-    test.check("all jobs of Slurm wait: Partition" in attempts.read_text(), "slurm: the reason of waiting is recorded")
-    marker = (test.folder / "brief/incomplete").read_text()
-    test.check("--engine slurm --engine-set partition=brief --workers 3" in marker, f"the command that resumes has the engine: {marker}")
-    run.kill()
-    run.wait()
-    done = test.faba("compare-controllers", "controllers.toml", "--out", "brief", "--engine", "local")
-    left = subprocess.run(["squeue", "--noheader", "--states=PENDING,RUNNING"], capture_output=True, text=True).stdout
-    test.check(done.returncode == 0 and "cancelled the Slurm jobs" in done.stderr and not left.strip(), f"slurm: jobs of a killed command are cancelled {left}")
-    test.equal("controllers", "brief", "slurm, then local")
-
-
-def signal_jobs(test):
-    """The signal of Slurm before the time limit reaches the worker, which keeps its results."""
-    run = test.start("compare-controllers", "controllers.toml", "--quiet", "--out", "signal", "--engine", "slurm", "--workers", 3)
-    test.wait_for_results("signal", 20000)
-    subprocess.run("squeue -h --states=RUNNING --array -o %F_%K | xargs -n 1 scancel --batch --signal=TERM", shell=True)
-    code = run.wait()
-    log = (test.folder / "signal/attempts.csv").read_text()
-    test.check(code == 0 and "stopped after" in log and "left tasks" in log, f"slurm: signal to all jobs, exit code {code}")
-    test.equal("controllers", "signal", "slurm, signal")
-
-
-def kill_node(test, cluster):
-    out = "kill-node"
-    run = test.start("compare-controllers", "controllers.toml", "--quiet", "--out", out, "--engine", "slurm", "--workers", 3)
-    for node, size in (("node1", 100), ("node2", 2000)):
-        test.wait_for_results(run, out, size)
-        cluster.kill_node(node)
-        cluster.start_node(node)
-    code = run.wait()
-    test.check(code == 0, f"slurm: two nodes killed, exit code {code}")
-    test.equal("controllers", out, "slurm, nodes killed")
-
-
-def kill_controller(test, cluster):
-    out = "kill-controller"
-    command = ("compare-controllers", "controllers.toml", "--quiet", "--out", out, "--engine", "slurm", "--workers", 3)
-    for size in (100, 2000):
-        run = test.start(*command)
-        test.wait_for_results(run, out, size)
-        cluster.kill_controller()
-        time.sleep(1)
-        run.send_signal(signal.SIGTERM)
-        run.wait()
-        cluster.start_controller()
-        time.sleep(1)
-        cluster.resume_nodes()
-    done = test.faba(*command)
-    test.check(done.returncode == 0, f"slurm: controller killed twice, command started again {done.stderr}")
-    test.equal("controllers", out, "slurm, controller killed")
-
-
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--program", required=True, type=pathlib.Path)
@@ -525,7 +352,7 @@ def main():
             if options.kills and name == "parallel":
                 test.kill_calibration(name, *extra)
         if wanted("slurm"):
-            run_slurm(test, options.kills)
+            slurm_checks.run(test, options.kills)
     for what in test.failures:
         print("FAILED:", what)
     print(f"{len(test.failures)} failures, {len(test.skipped)} skipped")

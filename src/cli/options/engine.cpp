@@ -62,7 +62,7 @@ std::vector<std::string> engine_words(const EngineOptions& o) {
   return words;
 }
 
-EngineStart::EngineStart(EngineOptions options, std::filesystem::path dir, std::string study_hash,
+EngineStart::EngineStart(EngineOptions options, const std::filesystem::path& dir, std::string study_hash,
                          const Common& c)
     : options_(std::move(options)),
       dir_(std::filesystem::absolute(dir)),

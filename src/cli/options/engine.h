@@ -34,7 +34,8 @@ std::vector<std::string> engine_words(const EngineOptions& o);
 /// Starts the engine of the options for the first round that is computed, with one progress bar.
 class EngineStart {
  public:
-  EngineStart(EngineOptions options, std::filesystem::path dir, std::string study_hash, const Common& c);
+  EngineStart(EngineOptions options, const std::filesystem::path& dir, std::string study_hash,
+              const Common& c);
   bool operator()(const Round& round, ResultStore& store);
 
  private:

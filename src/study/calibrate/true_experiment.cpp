@@ -98,7 +98,7 @@ void check_kinds(const CalibrationStudy& study, const std::vector<ResponseVideo>
       const Candidate& c = study.design.candidates[model];
       const ModelFamily difference = difference_of(kind);
       const VectorXd middle = VectorXd::Constant(Index(c.free.size()), 0.5);
-      for (std::size_t j = 0; j < c.free.size(); ++j) (void)true_value(c.free[j], 0.5, kind);
+      for (const FreeParameter& p : c.free) (void)true_value(p, 0.5, kind);
       const SampledEpisode sampled =
           sampled_episode(study.design, c, v, v.episodes.front(), middle, {1, 1}, &difference);
       (void)read_scenario(sampled.scenario, builtin_parts());

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <ranges>
 #include <thread>
 
 #include "core/error.h"
@@ -142,12 +143,13 @@ void EngineRun::submit(State& s, std::size_t most) {
   }
   if (next.empty()) return;
   std::vector<Attempt> attempts;
+  attempts.reserve(next.size());
   for (const Running& r : next) attempts.push_back(r.attempt);
   if (!engine_->submit(attempts)) {
     s.refused_until = monotonic_now() + kRetryPeriod;
     attempts_ -= next.size();  // the next try has the same files
-    for (auto it = next.rbegin(); it != next.rend(); ++it)
-      s.queue.insert(s.queue.begin(), it->tasks.begin(), it->tasks.end());
+    for (const Running& r : std::views::reverse(next))
+      s.queue.insert(s.queue.begin(), r.tasks.begin(), r.tasks.end());
     return;
   }
   for (Running& r : next) {
@@ -238,6 +240,7 @@ void EngineRun::log_end(State& s, const Running& ended, const AttemptEnd& how,
                         const std::vector<std::uint64_t>& left, bool failed) {
   const std::string name = ended.attempt.results.stem().string(), message = message_in(ended.attempt.log);
   std::vector<std::uint64_t> numbers;
+  numbers.reserve(left.size());
   for (const std::uint64_t task : left) numbers.push_back(s.planned.first + task);
   const char* event = !left.empty() ? "left tasks" : failed || how.exit != 0 ? "ended" : "complete";
   log_.add(name, event, number_list(numbers), joined(how.text(), message));

@@ -105,7 +105,7 @@ EngineSettings engine_settings(const std::string& engine, const std::vector<std:
   const Node root(d);
   if (!root.has("engine"))
     throw Error(Errc::usage, engine, "has no table [engine]; write [engine] with type = \"slurm\"");
-  const EngineSettings s = EngineSettings::schema().parse(root.child("engine"));
+  EngineSettings s = EngineSettings::schema().parse(root.child("engine"));
   for (const std::string& option : options) check_use(option, s.type);
   return s;
 }

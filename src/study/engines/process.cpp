@@ -15,12 +15,11 @@
 #include "core/child.h"
 #include "core/error.h"
 
-extern char** environ;
-
 namespace faba {
 
 pid_t start_process(const std::vector<std::string>& words, const ChildFiles& files) {
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (const std::string& w : words) arguments.push_back(const_cast<char*>(w.c_str()));
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;

@@ -246,7 +246,7 @@ std::vector<TaskLabel> trial_labels(const ControllerStudy& study, const Setting&
 }
 
 // The round of all trials: for each setting, one trial for each seed.
-Round trials_of(const ControllerStudy& study, std::shared_ptr<const std::vector<Setting>> all,
+Round trials_of(const ControllerStudy& study, const std::shared_ptr<const std::vector<Setting>>& all,
                 const std::function<bool()>& stop) {
   Round round;
   round.description = "controller trials, metrics of version 0.3";

@@ -186,12 +186,10 @@ TrackSurvey TrackSurveyor::result(int bits, bool timed, Pool& pool) const {
   }
   const GrayF& middle = sampler_.kept()[sampler_.kept().size() / 2];
   Background fine;
+  if (side_ == 1) s.coding = coding_traces(sampler_.kept(), pool);
   const std::function<void()> jobs[] = {
+      [&] { fine = spatial_background(middle, std::min(30.0, 0.1 * std::min(middle.width, middle.height))); },
       [&] {
-        if (side_ == 1) s.coding = coding_traces(sampler_.kept());
-      },
-      [&] {
-        fine = spatial_background(middle, std::min(30.0, 0.1 * std::min(middle.width, middle.height)));
         std::vector<float> levels = s.first.px;
         s.black = quantile_low(levels, 0.001);
         s.white = quantile_low(levels, 0.999);

@@ -17,9 +17,19 @@ constexpr int kSmallestFrame = 8 * kBlock;  // px, side of a frame
 constexpr double kMostSteps = 1000;         // where changes are the same in all pixels of each block
 constexpr double kClip = 4;                 // mean absolute changes: moving objects are not coding
 
-// Mean absolute step of the changes from one column (row) to the next.
+// Of the change between two frames: absolute steps from one column (row) to the next, and its blocks.
 struct Steps {
   std::vector<double> across, down;
+  double blocks = 0, equal = 0;
+
+  explicit Steps(const GrayF& frame)
+      : across(std::size_t(frame.width - 1)), down(std::size_t(frame.height - 1)) {}
+  void add(const Steps& other) {
+    for (std::size_t i = 0; i < across.size(); ++i) across[i] += other.across[i];
+    for (std::size_t i = 0; i < down.size(); ++i) down[i] += other.down[i];
+    blocks += other.blocks;
+    equal += other.equal;
+  }
 };
 
 double mean_absolute(const GrayF& change) {
@@ -78,22 +88,22 @@ bool changed(const GrayF& change, int left, int top) {
 
 }  // namespace
 
-CodingTraces coding_traces(const std::vector<GrayF>& frames) {
+CodingTraces coding_traces(const std::vector<GrayF>& frames, Pool& pool) {
   if (frames.size() < 2 || std::min(frames[0].width, frames[0].height) < kSmallestFrame) return {};
-  Steps steps{std::vector<double>(std::size_t(frames[0].width - 1)),
-              std::vector<double>(std::size_t(frames[0].height - 1))};
-  double blocks = 0, equal = 0;
-  for (std::size_t k = 1; k < std::min(frames.size(), kMostPairs + 1); ++k) {
-    const GrayF change = difference(frames[k], frames[k - 1]);
-    add_steps(change, steps);
+  std::vector<Steps> pairs(std::min(frames.size() - 1, kMostPairs), Steps(frames[0]));
+  pool.run_uneven(pairs.size(), [&](std::size_t k) {
+    const GrayF change = difference(frames[k + 1], frames[k]);
+    add_steps(change, pairs[k]);
     for_blocks(change, [&](int x, int y) {
-      blocks += 1;
-      equal += changed(change, x, y) ? 0 : 1;
+      pairs[k].blocks += 1;
+      pairs[k].equal += changed(change, x, y) ? 0 : 1;
     });
-  }
+  });
+  Steps steps(frames[0]);
+  for (const Steps& pair : pairs) steps.add(pair);
   const CodingTraces across = traces_along(steps.across), down = traces_along(steps.down);
   CodingTraces t = across.significance > down.significance ? across : down;
-  t.unchanged = equal / blocks;
+  t.unchanged = steps.equal / steps.blocks;
   return t;
 }
 

@@ -33,6 +33,7 @@ std::vector<GrayF> frames(double sd, double step, std::uint64_t seed) {
 }  // namespace
 
 TEST_CASE("coding traces: noise and moving objects have none") {
+  Pool pool(2);
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     std::vector<GrayF> all = frames(2, 0, seed);
     cells::Dice dice(100 + seed);
@@ -42,24 +43,26 @@ TEST_CASE("coding traces: noise and moving objects have none") {
         for (int y = top; y < top + 8; ++y)
           for (int x = left; x < left + 8; ++x) g.at(x, y) += 40;
       }
-    const CodingTraces t = coding_traces(all);
+    const CodingTraces t = coding_traces(all, pool);
     CHECK_MESSAGE(!t.coded(), "seed " << seed << ": " << t.block_steps << ", " << t.significance);
     CHECK(t.unchanged == 0);
   }
 }
 
 TEST_CASE("coding traces: changes in blocks, and blocks that are copied") {
+  Pool pool(2);
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const CodingTraces t = coding_traces(frames(2, 1, seed));
+    const CodingTraces t = coding_traces(frames(2, 1, seed), pool);
     CHECK(t.coded());
     CHECK(t.unchanged > 0.1);
   }
 }
 
 TEST_CASE("coding traces: frames that are equal, small or missing") {
-  CHECK_FALSE(coding_traces({}).coded());
-  CHECK_FALSE(coding_traces({GrayF(40, 200, 1), GrayF(40, 200, 2)}).coded());
-  const CodingTraces t = coding_traces({GrayF(100, 80, 7), GrayF(100, 80, 7)});
+  Pool pool(2);
+  CHECK_FALSE(coding_traces({}, pool).coded());
+  CHECK_FALSE(coding_traces({GrayF(40, 200, 1), GrayF(40, 200, 2)}, pool).coded());
+  const CodingTraces t = coding_traces({GrayF(100, 80, 7), GrayF(100, 80, 7)}, pool);
   CHECK_FALSE(t.coded());
   CHECK(t.unchanged == 1);
 }

@@ -170,7 +170,7 @@ class TrackVideosJob final : public StudyJob {
     o.provenance.options = options_;
     o.provenance.inputs = {inputs_.of(verb_.videos[i])};
     const auto& stop = stop_requested();
-    const TrackMeasurement m = [&] {
+    TrackMeasurement m = [&] {
       try {
         return track_video(o, [&](std::int64_t, std::int64_t) { return !stop; });
       } catch (const Error& e) {

@@ -38,8 +38,8 @@ FABA_VECTORISED void add_products(const SparsePixel* pixels, std::size_t n, cons
 }  // namespace
 
 void CorrelationWindow::include(int dx, int dy) {
-  Row& row = rows_[std::size_t(dy + radius_)];
-  const int column = dx + radius_;
+  const int line = dy + radius_, column = dx + radius_;
+  Row& row = rows_[std::size_t(line)];
   row = row.to < row.from ? Row{column, column} : Row{std::min(row.from, column), std::max(row.to, column)};
 }
 

@@ -10,7 +10,7 @@
 namespace faba {
 namespace {
 
-constexpr double kLevelStep = 0.02;
+constexpr int kLevels = 50;  // of a curve of coverage
 constexpr double kBand = 0.99;
 
 std::string axis_label(const FreeParameter& p, const char* what) {
@@ -90,8 +90,7 @@ Figure coverage_figure(const ModelCalibration& m) {
   f.plot.x.hi = f.plot.y.hi = 1;
   Ribbon band{.x = {}, .lo = {}, .hi = {}, .label = {}, .ink = Ink::muted};
   std::vector<double> levels;
-  for (double level = 0; level < 1 + kLevelStep / 2; level += kLevelStep)
-    levels.push_back(std::min(1.0, level));
+  for (int k = 0; k <= kLevels; ++k) levels.push_back(double(k) / kLevels);
   for (const double level : levels) {
     const BinomialRange r = binomial_range(m.experiments, level, kBand);
     band.x.push_back(level);
