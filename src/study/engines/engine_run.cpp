@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
-#include <ranges>
 #include <thread>
 
 #include "core/error.h"
@@ -148,8 +147,9 @@ void EngineRun::submit(State& s, std::size_t most) {
   if (!engine_->submit(attempts)) {
     s.refused_until = monotonic_now() + kRetryPeriod;
     attempts_ -= next.size();  // the next try has the same files
-    for (const Running& r : std::views::reverse(next))
-      s.queue.insert(s.queue.begin(), r.tasks.begin(), r.tasks.end());
+    std::vector<std::uint64_t> again;
+    for (const Running& r : next) again.insert(again.end(), r.tasks.begin(), r.tasks.end());
+    s.queue.insert(s.queue.begin(), again.begin(), again.end());
     return;
   }
   for (Running& r : next) {

@@ -55,7 +55,7 @@ std::vector<SlurmJob> squeue_jobs(const std::string& answer) {
     std::string array, task, exit;
     SlurmJob j;
     if (!(words >> array >> task >> j.state >> exit)) continue;
-    j.name = array + "_" + task;
+    j.name = array.append("_").append(task);
     j.exit = exit_of(exit);
     std::getline(words >> std::ws, j.reason);
     j.reason.erase(j.reason.find_last_not_of(' ') + 1);
