@@ -272,7 +272,10 @@ void EngineRun::wait(State& s) {
   const double now = monotonic_now();
   if (!s.running.empty() && waiting_for().empty() && s.checked_at > 0) s.worked += now - s.checked_at;
   s.checked_at = now;
-  if (trouble.empty()) s.untroubled_at = now;
+  if (trouble.empty()) {
+    s.untroubled_at = now;
+    trouble_.clear();  // the same trouble is reported again when it comes back
+  }
   if (trouble == trouble_ || now - s.untroubled_at < kTroubleTime) return;
   trouble_ = trouble;
   log_.add(run_name_, "engine", "", trouble);

@@ -17,7 +17,8 @@ namespace {
 constexpr std::array<std::string_view, 9> kEnded{"BOOT_FAIL", "CANCELLED",     "COMPLETED",
                                                  "DEADLINE",  "FAILED",        "NODE_FAIL",
                                                  "PREEMPTED", "OUT_OF_MEMORY", "TIMEOUT"};
-// Messages of sbatch about the connection to the controller, and about limits on the number of jobs.
+// Parts of the messages of sbatch about the connection to the controller, about Munge (authentication), and
+// about limits on the number of jobs. Any other message is permanent.
 constexpr std::array<std::string_view, 13> kForNow{"Unable to contact",
                                                    "timed out",
                                                    "standby",
