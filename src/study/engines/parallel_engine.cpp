@@ -140,10 +140,11 @@ class ParallelEngine final : public Engine {
   std::vector<std::string> words(const fs::path& list, const fs::path& joblog) const {
     std::string command = "exec 2>> {3}; ";
     for (const std::string& line : settings_.environment) command += line + "; ";
+    command += "exec ";  // the worker replaces the shell: it ends with GNU parallel
     const Attempt pattern{0, "{1}", "{2}", "{3}"};
     for (const std::string& word : worker_.words(pattern))
       command += (word.starts_with("{") ? word : shell_word(word)) + " ";
-    // setpriv: without this command, GNU parallel ends its jobs and itself.
+    // setpriv: when this command dies, GNU parallel ends its jobs and itself.
     std::vector<std::string> w{"setpriv",
                                "--pdeathsig",
                                "TERM",
