@@ -1,6 +1,7 @@
 // GNU parallel: workers on this machine and on hosts that share the folder of the study.
 #include <fmt/format.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <limits>
@@ -140,14 +141,20 @@ class ParallelEngine final : public Engine {
   std::vector<std::string> words(const fs::path& list, const fs::path& joblog) const {
     std::string command = "exec 2>> {3}; ";
     for (const std::string& line : settings_.environment) command += line + "; ";
-    command += "exec ";  // the worker replaces the shell: it ends with GNU parallel
+    command += "exec ";  // the worker replaces the shell, and ends with the process that started it
     const Attempt pattern{0, "{1}", "{2}", "{3}"};
     for (const std::string& word : worker_.words(pattern))
       command += (word.starts_with("{") ? word : shell_word(word)) + " ";
-    // setpriv: when this command dies, GNU parallel ends its jobs and itself.
+    command += "--parent $PPID";
+    // When this command dies, GNU parallel ends its jobs and itself; the shell ends it if the command died
+    // before setpriv.
     std::vector<std::string> w{"setpriv",
                                "--pdeathsig",
                                "TERM",
+                               "sh",
+                               "-c",
+                               fmt::format("[ $PPID = {} ] && exec \"$@\"", getpid()),
+                               "sh",
                                "parallel",
                                "--no-notice",
                                "--colsep",
