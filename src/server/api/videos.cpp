@@ -5,7 +5,6 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/units.h"
 #include "server/api/lab_services.h"
 #include "server/api/responses.h"
 #include "server/videos/open_videos.h"
@@ -81,7 +80,8 @@ FrameLook look_of(const WebRequest& r, const VideoFrames& video, const VideoFram
 }
 
 Json histogram_json(const GreyHistogram& h) {
-  return {{"least", h.least}, {"most", h.most}, {"low", h.low}, {"high", h.high}, {"counts", h.counts}};
+  return {{"least", h.least}, {"most", h.most}, {"step", h.step},
+          {"low", h.low},     {"high", h.high}, {"counts", h.counts}};
 }
 
 Json about(VideoFrames& video) {

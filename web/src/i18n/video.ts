@@ -1,5 +1,4 @@
 export const en = {
-  'tab.video': 'Video',
   'video.title': 'Videos',
   'video.choose': 'Choose a video of the workspace.',
   'video.none': 'The workspace contains no videos.',
@@ -82,7 +81,6 @@ export const en = {
 } as const;
 
 export const pt: Record<keyof typeof en, string> = {
-  'tab.video': 'Vídeo',
   'video.title': 'Vídeos',
   'video.choose': 'Escolha um vídeo da pasta de trabalho.',
   'video.none': 'A pasta de trabalho não contém vídeos.',
