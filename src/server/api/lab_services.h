@@ -5,6 +5,7 @@
 #include "app/scenario/parts.h"
 #include "server/api/routes.h"
 #include "server/experiments/experiment_store.h"
+#include "server/experiments/imports.h"
 #include "server/job_list.h"
 #include "server/workspace.h"
 
@@ -19,11 +20,13 @@ struct LabServices {
   const Parts& parts;
   BenchView& bench;
   ExperimentStore& experiments;
+  Imports& imports;
 };
 
 // Each adds the requests of one concept; see web/protocol.md. The services must outlive the routes.
 void add_bench_routes(Routes& routes, const LabServices& lab);
 void add_experiment_routes(Routes& routes, const LabServices& lab);
+void add_folder_routes(Routes& routes, const LabServices& lab);
 void add_gallery_routes(Routes& routes, const LabServices& lab);
 void add_job_routes(Routes& routes, const LabServices& lab);
 void add_run_routes(Routes& routes, const LabServices& lab);
