@@ -64,10 +64,10 @@ const std::vector<Metadata> kFiles = {
 
 void check_scale(const nlohmann::json& j, const Metadata& m) {
   CAPTURE(m.name);
-  if (m.um_per_px.is_null())
-    CHECK(j.value("um_per_px", nlohmann::json("absent")).is_null());
-  else
-    CHECK(j.value("um_per_px", nlohmann::json(0)) == doctest::Approx(m.um_per_px.get<double>()));
+  const nlohmann::json um_per_px = j.value("um_per_px", nlohmann::json("absent"));
+  CHECK(um_per_px.type() == m.um_per_px.type());
+  if (um_per_px.is_number() && m.um_per_px.is_number())
+    CHECK(um_per_px.get<double>() == doctest::Approx(m.um_per_px.get<double>()));
   CHECK(j.value("um_per_px_source", nlohmann::json("absent")) == m.source);
 }
 
