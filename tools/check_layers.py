@@ -66,6 +66,7 @@ WITHIN = {
     },
     "study": {
         "data": "",
+        "experiment": "",
         "stats": "",
         "quality": "",
         "sweep": "",
@@ -75,13 +76,13 @@ WITHIN = {
         "drop": "data quality",
         "flow": "data quality",
         "tracks": "data stats quality",
-        "motion": "data stats tracks quality",
+        "motion": "data experiment stats tracks quality",
         "uturn": "data stats tracks quality",
         "steering": "data stats sweep",
         "coils": "plot quality",
         "identify": "data stats sweep tracks motion quality",
         "calibrate": "stats sweep quality identify",
-        "pages": "data stats quality sweep plot scale drop flow tracks motion uturn steering coils identify calibrate",
+        "pages": "data experiment stats quality sweep plot scale drop flow tracks motion uturn steering coils identify calibrate",
     },
 }
 # Folders whose results are structs; study/pages, cli and server convert them to JSON. Files that use JSON for another

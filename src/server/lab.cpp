@@ -9,9 +9,11 @@
 #include "app/run/live_run.h"
 #include "app/scenario/read_scenario.h"
 #include "core/file.h"
-#include "server/api.h"
+#include "server/access.h"
+#include "server/api/api.h"
 #include "server/live_lab.h"
 #include "server/page_message.h"
+#include "server/web_server.h"
 
 namespace faba {
 namespace {

@@ -58,7 +58,7 @@ export const step = async (what, does) => {
   assert.deepEqual(complaints, [], `the page reported errors: ${what}`);
   console.log(`ok ${what} (${((Date.now() - began) / 1000).toFixed(1)} s)`);
 };
-export const tab = (name) => page.locator('nav').getByRole('button', { name: new RegExp(`^${name}`) }).click();
+export const tab = (name) => page.locator('nav').getByRole('link', { name: new RegExp(`^${name}`) }).click();
 export const panel = (name) => page.getByRole('tab', { name: new RegExp(`^${name}`) }).click();
 /** The numbers in an element of the page. */
 export const read = async (what) => (await page.locator(`[data-read="${what}"]`).textContent()).match(/-?[\d.]+/g)?.map(Number) ?? [];

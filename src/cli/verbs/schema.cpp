@@ -8,6 +8,7 @@
 #include "cli/command_line.h"
 #include "study/calibrate/calibration_study.h"
 #include "study/engines/engine_settings.h"
+#include "study/experiment/experiment.h"
 #include "study/identify/identify.h"
 #include "study/motion/activity_study.h"
 #include "study/steering/controller_study.h"
@@ -41,6 +42,7 @@ int schema(const std::string& file, const Common& c) {
                  : file == "compare-controllers" ? controller_study_schema()
                  : file == "activity"            ? activity_study_schema()
                  : file == "moment"              ? moment_study_schema()
+                 : file == "experiment"          ? experiment_schema()
                  : file == "engine"              ? engine_file_schema()
                                                  : scenario_json_schema(parts);
   fmt::print("{}\n", j.dump(2));
@@ -56,10 +58,10 @@ void add_schema(CLI::App& app, CommandLine& line) {
   const auto of = std::make_shared<std::string>("scenario");
   v->add_option(
        "kind", *of,
-       "Kind of file: scenario (default), rig or engine; the verb that reads the study file; or series, "
+       "Kind of file: scenario (default), rig, experiment or engine; the verb that reads the study file; or series, "
        "which lists the columns of series.csv")
       ->check(one_of({"scenario", "rig", "identify", "calibrate", "compare-controllers", "activity", "moment",
-                      "engine", "series"}));
+                      "experiment", "engine", "series"}));
   v->callback([of, &line] { line.code = schema(*of, line.common); });
 }
 

@@ -9,6 +9,7 @@
 #include "app/scenario/parts.h"
 #include "core/error.h"
 #include "core/toml.h"
+#include "study/experiment/experiment.h"
 #include "vision/files/picture_sequence.h"
 
 namespace faba {
@@ -85,6 +86,24 @@ std::filesystem::path existing_file(const Node& n, const std::string& key, const
               fmt::format("file not found: {} (relative to the study file)", name));
 }
 
+void take_experiment(const Document& d, ActivityJob& job) {
+  const Node root(d);
+  const Experiment e = read_experiment(d);
+  if (e.videos.empty()) root.fail("[[video]] is missing; give one for each video");
+  if (!e.noise.empty()) job.noise = existing_file(root, "noise", e.noise);
+  for (std::size_t i = 0; i < e.videos.size(); ++i) {
+    const ExperimentVideo& v = e.videos[i];
+    job.videos.push_back({.file = existing_file(root.child("video").item(i), "file", v.file),
+                          .exposure_s = v.exposure_s,
+                          .experiment = v.drop,
+                          .direction_deg = swimming_direction_deg(e, v),
+                          .reversal_s = v.reversal_s,
+                          .from_s = v.from_s.value_or(0),
+                          .to_s = v.to_s,
+                          .um_per_px = um_per_px_of(e, v)});
+  }
+}
+
 }  // namespace
 
 Json activity_study_schema() {
@@ -97,6 +116,7 @@ Json activity_study_schema() {
 
 void read_activity_study(const std::filesystem::path& file, ActivityJob& job) {
   const Document d = read_toml(file);
+  if (experiment_file(file)) return take_experiment(d, job);
   const Node root(d);
   require_kind(root, FileKind::activity_study);
   const ActivityFile study = ActivityFile::schema().parse(root, {"video", "flow"});

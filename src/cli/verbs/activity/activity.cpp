@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "study/data/run_video.h"
+#include "study/experiment/experiment.h"
 #include "study/motion/activity_study.h"
 #include "study/pages/activity_report.h"
 #include "study/pages/flow_report.h"
@@ -162,8 +163,10 @@ ActivityJob job_of(const ActivityVerb& v) {
   job.shrink = v.flow.shrink;
   job.fps = v.flow.fps;
   job.threads = v.flow.threads;
-  if (v.videos.size() == 1 && v.videos.front().extension() == ".toml") {
-    read_activity_study(v.videos.front(), job);
+  const auto experiment =
+      v.videos.size() == 1 ? experiment_file(v.videos.front()) : std::optional<std::filesystem::path>();
+  if (experiment || (v.videos.size() == 1 && v.videos.front().extension() == ".toml")) {
+    read_activity_study(experiment.value_or(v.videos.front()), job);
     if (!choice.values.empty()) job.method = flow_part(choice, published_flow());
     if (!v.noise.empty()) {
       job.noise = v.noise;
@@ -208,8 +211,9 @@ void print_activity(const ActivityResult& result) {
 }
 
 void add_activity_options(CLI::App* v, ActivityVerb& o) {
-  v->add_option("videos", o.videos,
-                "Videos, run directories or flow files; or a study file (TOML) that lists them")
+  v->add_option(
+       "videos", o.videos,
+       "Videos, run directories or flow files; or a study file (TOML) or an experiment that lists them")
       ->required();
   add_response_options(v, o.response);
   v->add_option("--reversal", o.reversal,

@@ -1,0 +1,60 @@
+#include "server/api/api.h"
+
+#include "core/error.h"
+#include "server/api/responses.h"
+#include "server/embedded_page.h"
+
+namespace faba {
+namespace {
+
+namespace fs = std::filesystem;
+
+WebResponse failure(int status, const Error& e) {
+  return {.status = status, .body = Json{{"ok", false}, {"where", e.where()}, {"what", e.reason()}}.dump()};
+}
+
+}  // namespace
+
+Api::Api(const Workspace& workspace, JobList& jobs, fs::path pictures, fs::path pages)
+    : pages_(std::move(pages)), experiments_(workspace), lab_{workspace,       jobs,   std::move(pictures),
+                                                              builtin_parts(), bench_, experiments_} {
+  routes_.add("GET", "/api/about", [this](const auto&, const auto&) {
+    return json_answer({{"version", FABA_VERSION}, {"workspace", lab_.workspace.root()}});
+  });
+  add_scenario_routes(routes_, lab_);
+  add_gallery_routes(routes_, lab_);
+  add_run_routes(routes_, lab_);
+  add_experiment_routes(routes_, lab_);
+  add_job_routes(routes_, lab_);
+  add_upload_routes(routes_, lab_);
+  add_bench_routes(routes_, lab_);
+}
+
+WebResponse Api::answer(const WebRequest& r) {
+  try {
+    if (auto found = routes_.answer(r)) return *std::move(found);
+    const bool get = r.method == "GET" || r.method == "HEAD";
+    if (get && !r.path.starts_with("/api/"))
+      return page_file(r.path == "/" ? "index.html" : r.path.substr(1));
+    throw Error(Errc::input, r.path, "not found");
+  } catch (const Error& e) {
+    return failure(e.code() == Errc::input ? 404 : e.code() == Errc::usage ? 422 : 500, e);
+  } catch (const Json::exception&) {
+    return failure(422, {Errc::usage, "invalid request", "a value has the wrong type"});
+  } catch (const std::exception& e) {
+    return failure(500, {Errc::internal, "", e.what()});
+  }
+}
+
+WebResponse Api::page_file(const std::string& name) const {
+  if (!pages_.empty()) {
+    const fs::path file = pages_ / fs::path(name).filename();
+    if (!fs::is_regular_file(file)) throw Error(Errc::input, name, "not found");
+    return file_answer(file);
+  }
+  const auto content = embedded_page(name);
+  if (!content) throw Error(Errc::input, name, "not found");
+  return {.type = content_type(name), .body = std::string(*content)};
+}
+
+}  // namespace faba

@@ -1,0 +1,26 @@
+#pragma once
+#include "server/api/lab_services.h"
+
+namespace faba {
+
+/// HTTP interface of the lab; see web/protocol.md. Thread-safe.
+class Api {
+ public:
+  /// `pictures`: a private folder for rendered images and uploads. `pages`: folder with the files of the
+  /// page, for development; empty: the files embedded in the program.
+  Api(const Workspace& workspace, JobList& jobs, std::filesystem::path pictures, std::filesystem::path pages);
+
+  /// Never throws: errors become responses with a status and {"where", "what"}.
+  WebResponse answer(const WebRequest& r);
+
+ private:
+  WebResponse page_file(const std::string& name) const;
+
+  std::filesystem::path pages_;
+  BenchView bench_;
+  ExperimentStore experiments_;
+  LabServices lab_;
+  Routes routes_;
+};
+
+}  // namespace faba

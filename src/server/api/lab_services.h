@@ -1,0 +1,33 @@
+#pragma once
+#include <filesystem>
+
+#include "app/bench/bench_view.h"
+#include "app/scenario/parts.h"
+#include "server/api/routes.h"
+#include "server/experiments/experiment_store.h"
+#include "server/job_list.h"
+#include "server/workspace.h"
+
+namespace faba {
+
+/// What the handlers of requests share.
+struct LabServices {
+  const Workspace& workspace;
+  JobList& jobs;
+  /// A private folder for rendered images and uploads, removed when the lab ends.
+  std::filesystem::path pictures;
+  const Parts& parts;
+  BenchView& bench;
+  ExperimentStore& experiments;
+};
+
+// Each adds the requests of one concept; see web/protocol.md. The services must outlive the routes.
+void add_bench_routes(Routes& routes, const LabServices& lab);
+void add_experiment_routes(Routes& routes, const LabServices& lab);
+void add_gallery_routes(Routes& routes, const LabServices& lab);
+void add_job_routes(Routes& routes, const LabServices& lab);
+void add_run_routes(Routes& routes, const LabServices& lab);
+void add_scenario_routes(Routes& routes, const LabServices& lab);
+void add_upload_routes(Routes& routes, const LabServices& lab);
+
+}  // namespace faba

@@ -1,0 +1,129 @@
+#include "server/experiments/experiment_store.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "core/hash.h"
+#include "server/experiments/experiment_changes.h"
+#include "study/experiment/experiment.h"
+
+namespace faba {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr const char* kFolder = "experiments";
+constexpr std::size_t kLongestName = 80;
+
+// Of the content of a file: pages compare it with the one that they have.
+std::string revision_of(const std::string& content) {
+  Hash h;
+  h.text(content);
+  return h.hex();
+}
+
+Json card(const std::string& name, const fs::path& file) {
+  try {
+    const Experiment e = read_experiment(file);
+    return {{"name", name}, {"title", e.title}, {"drops", e.drops.size()}, {"videos", e.videos.size()}};
+  } catch (const Error& e) {
+    return {{"name", name}, {"title", name}, {"error", e.what()}};
+  }
+}
+
+}  // namespace
+
+std::string safe_name(const std::string& text) {
+  std::string name;
+  for (const char c : text) {
+    const auto u = static_cast<unsigned char>(c);
+    // Bytes of UTF-8 letters remain as they are.
+    const bool good = std::isalnum(u) || u >= 0x80 || c == '.' || c == '_';
+    if (good)
+      name += c;
+    else if (!name.empty() && name.back() != '-')
+      name += '-';
+  }
+  name.erase(0, name.find_first_not_of(".-"));
+  while (name.size() > kLongestName) {
+    // A whole character of UTF-8.
+    while (!name.empty() && (static_cast<unsigned char>(name.back()) & 0xC0) == 0x80) name.pop_back();
+    if (!name.empty()) name.pop_back();
+  }
+  while (!name.empty() && (name.back() == '-' || name.back() == '.')) name.pop_back();
+  return name;
+}
+
+fs::path ExperimentStore::folder(const std::string& name) const {
+  const fs::path dir = workspace_.inside(fmt::format("{}/{}", kFolder, name));
+  if (name.empty() || name.find('/') != name.npos || !experiment_file(dir))
+    throw Error(Errc::input, name.substr(0, kLongestName), "experiment not found");
+  return dir;
+}
+
+Json ExperimentStore::list() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::pair<fs::file_time_type, std::string>> found;
+  std::error_code ec;
+  for (const auto& e : fs::directory_iterator(workspace_.root() / kFolder, ec)) {
+    const std::string name = e.path().filename();
+    if (const auto file = experiment_file(e.path()); file && !name.starts_with('.'))
+      found.emplace_back(fs::last_write_time(*file, ec), name);
+  }
+  std::sort(found.rbegin(), found.rend());
+  Json all = Json::array();
+  for (const auto& [_, name] : found)
+    all.push_back(card(name, workspace_.root() / kFolder / name / kExperimentFile));
+  return all;
+}
+
+std::string ExperimentStore::create(const std::string& title) {
+  const std::lock_guard lock(mutex_);
+  std::string wanted = safe_name(title);
+  std::transform(wanted.begin(), wanted.end(), wanted.begin(),
+                 [](unsigned char c) { return char(c < 0x80 ? std::tolower(c) : c); });
+  if (wanted.empty())
+    throw Error(Errc::usage, "title", fmt::format("\"{}\" must have at least one letter or digit", title));
+  std::string name = wanted;
+  for (int i = 2; fs::exists(workspace_.root() / kFolder / name); ++i) name = fmt::format("{}-{}", wanted, i);
+  const fs::path dir = workspace_.inside(fmt::format("{}/{}", kFolder, name));
+  fs::create_directories(dir / "videos");
+  write_file(dir / kExperimentFile, to_toml({{"title", title}}));
+  return name;
+}
+
+Json ExperimentStore::read(const std::string& name) const {
+  const std::lock_guard lock(mutex_);
+  return read_locked(name);
+}
+
+Json ExperimentStore::read_locked(const std::string& name) const {
+  const fs::path file = folder(name) / kExperimentFile;
+  const Document d = read_toml(file);
+  (void)read_experiment(d);
+  return {{"name", name}, {"revision", revision_of(read_file(file))}, {"experiment", d.root}};
+}
+
+Json ExperimentStore::change(const std::string& name, const Json& asked) {
+  const std::vector<ExperimentChange> changes = changes_of(asked);
+  const std::lock_guard lock(mutex_);
+  const fs::path file = folder(name) / kExperimentFile;
+  Document d = read_toml(file);
+  const std::vector<ChangeConflict> conflicts = apply_changes(d.root, changes);
+  if (conflicts.empty()) {
+    d.name = kExperimentFile;
+    d.origin.clear();  // lines of the file before
+    (void)read_experiment(d);
+    write_file(file, to_toml(d.root));
+    return read_locked(name);
+  }
+  Json answer = read_locked(name);
+  answer["conflicts"] = Json::array();
+  for (const ChangeConflict& c : conflicts) answer["conflicts"].push_back({{"path", c.path}, {"now", c.now}});
+  return answer;
+}
+
+}  // namespace faba

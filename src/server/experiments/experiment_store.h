@@ -1,0 +1,42 @@
+#pragma once
+#include <filesystem>
+#include <mutex>
+#include <string>
+
+#include "core/toml.h"
+#include "server/workspace.h"
+
+namespace faba {
+
+/// The experiments of a workspace: the folders below experiments/ with an experiment file. Several pages may
+/// change one experiment. Thread-safe.
+class ExperimentStore {
+ public:
+  explicit ExperimentStore(const Workspace& workspace) : workspace_(workspace) {}
+
+  /// [{"name", "title", "drops", "videos"} or {"name", "error"}], newest first.
+  Json list() const;
+  /// Creates an experiment. Returns its name: the title as a folder name, with a number if it is used.
+  std::string create(const std::string& title);
+  /// {"name", "revision", "experiment"}. Throws Error(input) if there is none, Error(usage) for an invalid
+  /// file.
+  Json read(const std::string& name) const;
+  /// Applies the `changes` of a request. The answer of read(), or {"conflicts": [{"path", "now"}]} with it if
+  /// a change was refused. Throws Error(usage) if the changed experiment would be invalid.
+  Json change(const std::string& name, const Json& asked);
+
+  /// Its folder. Throws Error(input) if there is no such experiment.
+  std::filesystem::path folder(const std::string& name) const;
+
+ private:
+  Json read_locked(const std::string& name) const;
+
+  const Workspace& workspace_;
+  mutable std::mutex mutex_;
+};
+
+/// A name for files and folders: letters, digits, dots, dashes and underscores, without a leading dot or
+/// dash; other characters become dashes. Empty if nothing is left.
+std::string safe_name(const std::string& text);
+
+}  // namespace faba

@@ -1,0 +1,33 @@
+export const en = {
+  'gallery.cancel': 'Cancel',
+  'gallery.title': 'Scenes',
+  'gallery.start': 'Start',
+  'gallery.drop': 'Drag a picture or video of a drop here, or choose a file',
+  'gallery.looking': 'Detecting the edge …',
+  'gallery.edge': 'Edge of the drop',
+  'gallery.edge.help': 'Drag the circle to move it, or its rim to change the radius; then press Start.',
+  'gallery.cells': '{n} cells',
+  'gallery.no_drop': 'No arena with a circular edge is available.',
+  'gallery.needs_control': 'Start is disabled because this page does not control the swarm; press Take control at the top of the page.',
+  'gallery.needs_centre': 'Start is disabled because x and y must be numbers.',
+  'gallery.needs_radius': 'Start is disabled because the radius r must be at least {least} px.',
+  'gallery.needs_scale': 'Start is disabled because the scale must be above 0 µm/px, or empty.',
+  'gallery.no_scale': 'Without a scale, lengths are stated in px only, and the cells are simulated at a nominal scale.',
+} as const;
+
+export const pt: Record<keyof typeof en, string> = {
+  'gallery.cancel': 'Cancelar',
+  'gallery.title': 'Cenas',
+  'gallery.start': 'Iniciar',
+  'gallery.drop': 'Arraste para cá uma imagem ou um vídeo de uma gota, ou escolha um arquivo',
+  'gallery.looking': 'Detectando a borda …',
+  'gallery.edge': 'Borda da gota',
+  'gallery.edge.help': 'Arraste o círculo para movê-lo, ou a borda para mudar o raio; depois clique em Iniciar.',
+  'gallery.cells': '{n} células',
+  'gallery.no_drop': 'Não há arena com borda circular.',
+  'gallery.needs_control': 'Iniciar está desativado porque esta página não controla o enxame; clique em Assumir o controle no alto da página.',
+  'gallery.needs_centre': 'Iniciar está desativado porque x e y devem ser números.',
+  'gallery.needs_radius': 'Iniciar está desativado porque o raio r deve ser no mínimo {least} px.',
+  'gallery.needs_scale': 'Iniciar está desativado porque a escala deve ser maior que 0 µm/px, ou vazia.',
+  'gallery.no_scale': 'Sem escala, os comprimentos são dados somente em px, e as células são simuladas com uma escala nominal.',
+};

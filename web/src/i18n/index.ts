@@ -1,0 +1,28 @@
+// Texts of the page in English and Brazilian Portuguese, one catalogue for each part of the page; program.ts has
+// translations of the texts of the program.
+
+import * as app from './app';
+import * as bench from './bench';
+import * as experiments from './experiments';
+import * as gallery from './gallery';
+import * as runs from './runs';
+import * as jobs from './jobs';
+import * as analyse from './analyse';
+import * as form from './form';
+import * as workbench from './workbench';
+
+export { kProgram } from './program';
+
+const en = { ...app.en, ...bench.en, ...experiments.en, ...gallery.en, ...runs.en, ...jobs.en, ...analyse.en, ...form.en, ...workbench.en };
+const pt = { ...app.pt, ...bench.pt, ...experiments.pt, ...gallery.pt, ...runs.pt, ...jobs.pt, ...analyse.pt, ...form.pt, ...workbench.pt };
+
+export type Word = keyof typeof en;
+export type Language = 'en' | 'pt';
+export const kWords: Record<Language, Record<Word, string>> = { en, pt };
+
+export function words(language: Language) {
+  const say = (key: Word, values: Record<string, string | number> = {}) =>
+    kWords[language][key].replace(/\{(\w+)\}/g, (all, name) => (name in values ? String(values[name]) : all));
+  return Object.assign(say, { language });
+}
+export type Say = ReturnType<typeof words>;
