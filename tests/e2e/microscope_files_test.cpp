@@ -52,7 +52,7 @@ struct Metadata {
   nlohmann::json um_per_px, source;
 };
 
-/// Both formats, and a TIFF with only the resolution of a print, which is no scale.
+/// Both formats, and a TIFF with only the resolution of a print, which does not give a scale.
 const std::vector<Metadata> kFiles = {
     {"ome.tif",
      "<?xml version=\"1.0\"?><OME><Image ID='a'><Pixels PhysicalSizeX='650' PhysicalSizeXUnit='nm' "

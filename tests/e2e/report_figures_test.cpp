@@ -64,7 +64,7 @@ TEST_CASE("figures: an angle axis has ticks at 90 degrees, and an axis for the o
   CHECK(contains(drawing, "order parameter"));
 }
 
-TEST_CASE("figures: a delay axis has ticks at whole frames, and means have error bars") {
+TEST_CASE("figures: a delay axis has ticks at integer numbers of frames, and means have error bars") {
   const TestFolder f;
   write_file(f.path / "study.toml",
              "scene = '" FABA_SCENES
