@@ -32,5 +32,6 @@ void add_job_routes(Routes& routes, const LabServices& lab);
 void add_run_routes(Routes& routes, const LabServices& lab);
 void add_scenario_routes(Routes& routes, const LabServices& lab);
 void add_upload_routes(Routes& routes, const LabServices& lab);
+void add_video_routes(Routes& routes, const LabServices& lab);
 
 }  // namespace faba
