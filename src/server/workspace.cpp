@@ -13,11 +13,16 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::size_t kLongest = 1000;
-constexpr std::size_t kMostFiles = 500;
+constexpr std::size_t kMostFiles = 500, kMostRuns = 5000;
 constexpr std::array<const char*, 6> kVideos = {".mp4", ".avi", ".mkv", ".mov", ".webm", ".tif"};
 
 Error out_of_reach(std::string_view name) {
   return {Errc::usage, std::string(name.substr(0, 80)), "is outside the folder in which the lab was started"};
+}
+
+bool has_hidden_part(const fs::path& relative) {
+  return std::any_of(relative.begin(), relative.end(),
+                     [](const fs::path& part) { return part != "." && part.string().starts_with('.'); });
 }
 
 std::vector<fs::path> sorted_files(const fs::path& folder, std::string_view extension) {
@@ -70,7 +75,8 @@ fs::path Workspace::inside(std::string_view name) const {
   std::error_code ec;
   fs::path real = fs::weakly_canonical(root_ / asked, ec);
   const auto [at, _] = std::mismatch(root_.begin(), root_.end(), real.begin(), real.end());
-  if (ec || at != root_.end()) throw out_of_reach(name);
+  // A link inside the workspace may lead to a hidden file.
+  if (ec || at != root_.end() || has_hidden_part(real.lexically_relative(root_))) throw out_of_reach(name);
   return real;
 }
 
@@ -97,7 +103,8 @@ std::string Workspace::in_page(const std::string& where) const {
 void Workspace::check_files(const Json& scenario) const {
   constexpr std::array<std::string_view, 2> kNaming = {"file", "background"};  // keys with a file name
   const auto lies_below = [](const fs::path& folder, const fs::path& file) {
-    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end() &&
+           !has_hidden_part(file.lexically_relative(folder));
   };
   const fs::path project = gallery_.parent_path();  // scenes refer to ../rigs
   for (const auto& [key, value] : scenario.items()) {
@@ -136,7 +143,7 @@ std::vector<std::string> Workspace::runs() const {
   std::sort(found.rbegin(), found.rend());
   std::vector<std::string> names;
   for (auto& [_, name] : found)
-    if (names.size() < kMostFiles) names.push_back(std::move(name));
+    if (names.size() < kMostRuns) names.push_back(std::move(name));
   return names;
 }
 

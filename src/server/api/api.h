@@ -19,6 +19,8 @@ class Api {
   std::filesystem::path pages_;
   BenchView bench_;
   ExperimentStore experiments_;
+  Trash trash_;
+  RunCatalogue runs_;
   LabServices lab_;
   Routes routes_;
 };

@@ -6,6 +6,8 @@
 #include "server/api/routes.h"
 #include "server/experiments/experiment_store.h"
 #include "server/job_list.h"
+#include "server/runs/run_catalogue.h"
+#include "server/trash.h"
 #include "server/workspace.h"
 
 namespace faba {
@@ -19,6 +21,8 @@ struct LabServices {
   const Parts& parts;
   BenchView& bench;
   ExperimentStore& experiments;
+  RunCatalogue& runs;
+  Trash& trash;
 };
 
 // Each adds the requests of one concept; see web/protocol.md. The services must outlive the routes.
@@ -28,6 +32,7 @@ void add_gallery_routes(Routes& routes, const LabServices& lab);
 void add_job_routes(Routes& routes, const LabServices& lab);
 void add_run_routes(Routes& routes, const LabServices& lab);
 void add_scenario_routes(Routes& routes, const LabServices& lab);
+void add_trash_routes(Routes& routes, const LabServices& lab);
 void add_upload_routes(Routes& routes, const LabServices& lab);
 
 }  // namespace faba
