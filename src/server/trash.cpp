@@ -18,7 +18,7 @@ namespace faba {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr const char* kFolder = ".faba-trash";
+constexpr const char* kTrashFolder = ".faba-trash";
 constexpr const char* kLock = "lab";
 
 bool is_there(const fs::path& path) {
@@ -76,7 +76,7 @@ bool rename_new(const fs::path& from, const fs::path& to, const std::string& nam
 }
 
 Trash::Trash(const Workspace& workspace) : workspace_(workspace) {
-  const fs::path all = workspace_.root() / kFolder;
+  const fs::path all = workspace_.root() / kTrashFolder;
   if (!is_there(all)) return;
   if (!fs::is_directory(fs::symlink_status(all)))
     throw Error(Errc::usage, all.string(), "is not a folder; the lab keeps deleted runs there; remove it");
@@ -97,7 +97,7 @@ Trash::~Trash() {
 
 const fs::path& Trash::folder() {
   if (!folder_.empty()) return folder_;
-  const fs::path all = workspace_.root() / kFolder;
+  const fs::path all = workspace_.root() / kTrashFolder;
   std::error_code ec;
   for (int n = 1; n < 1000; ++n) {
     fs::create_directory(all, ec);

@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { asked, elapsed, partOf, validMarking, wholeRun } from '../src/parts/marked_part';
+import { asked, elapsed, partOf, validMarking, completeRun } from '../src/parts/marked_part';
 
 const kMarking = { run: 3, seed: 7, first: 40, last: null };
 
@@ -21,7 +21,7 @@ describe('a marked part', () => {
 
 describe('the complete run', () => {
   test('is saved until the request, unless its end is moved', () => {
-    const all = wholeRun(99, 20);
+    const all = completeRun(99, 20);
     expect(asked(all)).toEqual({});
     expect(asked({ ...all, from: 1 })).toEqual({ from: 1 });
     expect(asked({ ...all, to: 3 })).toEqual({ to: 3 });

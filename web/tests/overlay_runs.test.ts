@@ -14,18 +14,18 @@ function series(first: number, frames: number, change = Infinity): Series {
 const of = (v: ArrayLike<number>) => Array.from(v, (one) => Number(one.toFixed(6)));
 
 describe('alignment', () => {
-  const whole = series(0, 50, 20), part = series(30, 10, 35), steady = series(12, 5);
+  const complete = series(0, 50, 20), part = series(30, 10, 35), steady = series(12, 5);
   test('from the start of the run: a part begins later', () => {
-    expect([origin(whole, 'run'), origin(part, 'run')]).toEqual([0, 0]);
+    expect([origin(complete, 'run'), origin(part, 'run')]).toEqual([0, 0]);
   });
   test('from the start of the recording', () => {
-    expect([origin(whole, 'recording'), origin(part, 'recording')]).toEqual([0, 3]);
+    expect([origin(complete, 'recording'), origin(part, 'recording')]).toEqual([0, 3]);
   });
   test('from the first change of the setpoint; without a change from the start of the recording', () => {
-    expect([origin(whole, 'setpoint'), origin(part, 'setpoint'), origin(steady, 'setpoint')]).toEqual([2, 3.5, 1.2]);
+    expect([origin(complete, 'setpoint'), origin(part, 'setpoint'), origin(steady, 'setpoint')]).toEqual([2, 3.5, 1.2]);
   });
   test('curves have the aligned times', () => {
-    const runs = [whole, part].map((s, k) => ({ label: `run ${k}`, series: s, um_per_px: null }));
+    const runs = [complete, part].map((s, k) => ({ label: `run ${k}`, series: s, um_per_px: null }));
     const [a, b] = curves(quantities(words('en'), false)[0], runs, 'setpoint');
     expect(of(a.t)[0]).toBe(-2);
     expect(of(b.t)[0]).toBe(-0.5);

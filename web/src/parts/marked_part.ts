@@ -28,7 +28,7 @@ export function partOf(first: number, last: number, rate: number): Part {
   return { from: first / rate, to, most: to, open: false };
 }
 /** From the beginning to the present frame. */
-export function wholeRun(now: number, rate: number): Part {
+export function completeRun(now: number, rate: number): Part {
   const to = (now + 1) / rate;
   return { from: 0, to, most: to, open: true };
 }

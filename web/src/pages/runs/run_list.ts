@@ -101,9 +101,9 @@ export function bytesText(bytes: number): string {
 /** "14.3 s", "2:05 min", "1:02:05 h". */
 export function durationText(s: number): string {
   if (s < 99.95) return `${s.toFixed(1)} s`;
-  const whole = Math.round(s), two = (v: number) => String(v).padStart(2, '0');
-  const h = Math.floor(whole / 3600), m = Math.floor(whole / 60) % 60;
-  return h ? `${h}:${two(m)}:${two(whole % 60)} h` : `${m}:${two(whole % 60)} min`;
+  const rounded = Math.round(s), two = (v: number) => String(v).padStart(2, '0');
+  const h = Math.floor(rounded / 3600), m = Math.floor(rounded / 60) % 60;
+  return h ? `${h}:${two(m)}:${two(rounded % 60)} h` : `${m}:${two(rounded % 60)} min`;
 }
 
 /** The steady-state error in micrometres if the scale is known, otherwise in pixels. */
