@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::size_t kLongest = 1000;
-constexpr std::size_t kMostFiles = 500;
+constexpr std::size_t kMostFiles = 500, kMostRuns = 5000;
 constexpr std::array<const char*, 6> kVideos = {".mp4", ".avi", ".mkv", ".mov", ".webm", ".tif"};
 
 Error out_of_reach(std::string_view name) {
@@ -30,8 +30,12 @@ std::vector<fs::path> sorted_files(const fs::path& folder, std::string_view exte
   return found;
 }
 
+// Whether an absolute path without links is in a folder, and neither the file nor a folder on the way is hidden.
 bool lies_below(const fs::path& folder, const fs::path& file) {
-  return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+  if (std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first != folder.end()) return false;
+  const fs::path below = file.lexically_relative(folder);
+  return std::none_of(below.begin(), below.end(),
+                      [](const fs::path& part) { return part != "." && part.string().starts_with('.'); });
 }
 
 bool holds_run(const fs::path& dir) {
@@ -87,14 +91,9 @@ bool Workspace::may_read(const fs::path& file) const {
   std::error_code ec;
   const fs::path real = fs::weakly_canonical(file, ec);
   if (ec) return false;
-  const auto reaches = [&](const fs::path& folder) {
-    if (!lies_below(folder, real)) return false;
-    const fs::path below = real.lexically_relative(folder);
-    return std::none_of(below.begin(), below.end(), [](const fs::path& part) {
-      return part != "." && part.string().starts_with('.');  // hidden
-    });
-  };
-  return reaches(root_) || std::any_of(allowed_.begin(), allowed_.end(), reaches);
+  return lies_below(root_, real) ||
+         std::any_of(allowed_.begin(), allowed_.end(),
+                     [&](const fs::path& folder) { return lies_below(folder, real); });
 }
 
 std::string Workspace::name_of(const fs::path& file) const {
@@ -164,7 +163,7 @@ std::vector<std::string> Workspace::runs() const {
   std::sort(found.rbegin(), found.rend());
   std::vector<std::string> names;
   for (auto& [_, name] : found)
-    if (names.size() < kMostFiles) names.push_back(std::move(name));
+    if (names.size() < kMostRuns) names.push_back(std::move(name));
   return names;
 }
 

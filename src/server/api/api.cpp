@@ -22,7 +22,9 @@ Api::Api(const Workspace& workspace, JobList& jobs, fs::path pictures, fs::path 
                    [news = std::move(news)](const std::string& name) {
                      news({{"say", "experiment"}, {"name", name}});
                    }),
-      lab_{workspace, jobs, std::move(pictures), builtin_parts(), bench_, experiments_, imports_} {
+      trash_(workspace),
+      runs_(workspace, jobs, trash_),
+      lab_{workspace, jobs, std::move(pictures), builtin_parts(), bench_, experiments_, imports_, runs_, trash_} {
   routes_.add("GET", "/api/about", [this](const auto&, const auto&) {
     return json_answer({{"version", FABA_VERSION}, {"workspace", lab_.workspace.root()}});
   });
@@ -32,6 +34,7 @@ Api::Api(const Workspace& workspace, JobList& jobs, fs::path pictures, fs::path 
   add_experiment_routes(routes_, lab_);
   add_folder_routes(routes_, lab_);
   add_job_routes(routes_, lab_);
+  add_trash_routes(routes_, lab_);
   add_upload_routes(routes_, lab_);
   add_video_routes(routes_, lab_);
   add_bench_routes(routes_, lab_);

@@ -22,6 +22,8 @@ class Api {
   BenchView bench_;
   ExperimentStore experiments_;
   Imports imports_{experiments_};
+  Trash trash_;
+  RunCatalogue runs_;
   LabServices lab_;
   Routes routes_;
 };

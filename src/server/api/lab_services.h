@@ -7,6 +7,8 @@
 #include "server/experiments/experiment_store.h"
 #include "server/experiments/imports.h"
 #include "server/job_list.h"
+#include "server/runs/run_catalogue.h"
+#include "server/trash.h"
 #include "server/workspace.h"
 
 namespace faba {
@@ -21,6 +23,8 @@ struct LabServices {
   BenchView& bench;
   ExperimentStore& experiments;
   Imports& imports;
+  RunCatalogue& runs;
+  Trash& trash;
 };
 
 // Each adds the requests of one concept; see web/protocol.md. The services must outlive the routes.
@@ -31,6 +35,7 @@ void add_gallery_routes(Routes& routes, const LabServices& lab);
 void add_job_routes(Routes& routes, const LabServices& lab);
 void add_run_routes(Routes& routes, const LabServices& lab);
 void add_scenario_routes(Routes& routes, const LabServices& lab);
+void add_trash_routes(Routes& routes, const LabServices& lab);
 void add_upload_routes(Routes& routes, const LabServices& lab);
 void add_video_routes(Routes& routes, const LabServices& lab);
 
