@@ -8,7 +8,6 @@
 #include "app/recording/run_lock.h"
 #include "app/recording/session.h"
 #include "core/error.h"
-#include "server/experiments/experiment_store.h"
 #include "server/gallery_index.h"
 #include "study/data/run_video.h"
 
@@ -140,10 +139,8 @@ std::vector<std::string> Workspace::pictures() const {
 }
 
 std::string Workspace::keep_picture(const fs::path& file, const std::string& name) const {
-  const fs::path wanted = safe_name(fs::path(name).filename().string());
-  if (wanted.empty())
-    throw Error(Errc::usage, name, "the name of the picture must have at least one letter or digit");
-  const fs::path folder = inside(kPictureFolder);
+  const fs::path wanted = fs::path(name).filename();
+  const fs::path folder = inside(fmt::format("{}/{}", kPictureFolder, wanted.string())).parent_path();
   fs::create_directories(folder);
   for (int i = 1;; ++i) {
     const std::string free =

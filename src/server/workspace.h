@@ -36,7 +36,7 @@ class Workspace {
   /// videos/ and data/, and the videos of files().
   std::vector<std::string> pictures() const;
   /// Copies a file to pictures/, under a name that is not used yet; the result is relative to the workspace.
-  /// `name`: the wanted name, with its extension. Throws Error(usage) if no character of it is permitted.
+  /// `name`: the wanted name, with its extension; its folder is ignored. Throws Error(usage) as inside().
   std::string keep_picture(const std::filesystem::path& file, const std::string& name) const;
 
   const std::filesystem::path& gallery() const { return gallery_; }  ///< folder of the scenes

@@ -4,7 +4,6 @@
 #include <doctest/doctest.h>
 
 #include <fstream>
-#include <future>
 #include <thread>
 
 #include "core/error.h"
@@ -12,73 +11,15 @@
 #include "core/toml.h"
 #include "server/web_server.h"
 #include "tests/server/raw_client.h"
-#include "tests/temporary_folder.h"
+#include "tests/server/served_lab.h"
 
 using namespace faba;
 using test::RawClient;
+using test::Served;
 using test::status_of;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A lab server, stopped by the destructor.
-class Served {
- public:
-  Served() : folder_("lab") {
-    fs::create_directories(folder_.path() / "scenes");
-    write_file(
-        folder_.path() / "scenes/one.toml",
-        "# A small one.\ntitle = 'One'\n[arena]\ntype = 'drop'\nradius_px = 100\n[[swarm]]\ncount = 10\n");
-    write_file(folder_.path() / "secret.txt", "confidential content");
-    std::promise<void> ready;
-    LabOptions o;
-    o.workspace = folder_.path();
-    o.program = FABA_PROGRAM;
-    o.threads = 1;
-    o.stop = &stop_;
-    o.ready = [&](const std::string& address, const fs::path& door) {
-      const std::string before = "http://127.0.0.1:", between = "/?token=";
-      const std::size_t at = address.find(between);
-      if (address.starts_with(before) && at != std::string::npos) {
-        port = static_cast<unsigned short>(std::stoi(address.substr(before.size(), at - before.size())));
-        token = address.substr(at + between.size());
-      }
-      door_mode = fs::status(door).permissions();
-      folder_mode = fs::status(door.parent_path()).permissions();
-      ready.set_value();
-    };
-    thread_ = std::thread([this, o] { serve_lab(o); });
-    ready.get_future().wait();
-  }
-  ~Served() {
-    stop_ = true;
-    thread_.join();
-  }
-
-  /// Header lines of the lab's page, with the cookie.
-  std::string own() const {
-    return fmt::format(
-        "Host: 127.0.0.1:{0}\r\nCookie: faba-{0}={1}\r\nOrigin: http://127.0.0.1:{0}\r\nSec-Fetch-Site: "
-        "same-origin\r\n",
-        port, token);
-  }
-  std::string ask(const std::string& line, const std::string& headers, const std::string& body = "") const {
-    RawClient c(port);
-    c.send(fmt::format("{} HTTP/1.1\r\n{}Content-Length: {}\r\n\r\n{}", line, headers, body.size(), body));
-    return c.answer();
-  }
-  std::string get(const std::string& path) const { return ask("GET " + path, own()); }
-
-  unsigned short port = 0;
-  std::string token;
-  fs::perms door_mode{}, folder_mode{};
-  const fs::path& folder() const { return folder_.path(); }
-
- private:
-  test::TemporaryFolder folder_;
-  std::atomic<bool> stop_ = false;
-  std::thread thread_;
-};
 
 const std::string kUpgrade =
     "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: "
@@ -251,66 +192,6 @@ TEST_CASE("S6: only runs and scenes of the workspace can be read") {
   CHECK(status_of(lab.get("/api/runs/" + std::string(7000, 'a') + "/x")) >= 400);
   const int longer = status_of(lab.get("/" + std::string(60000, 'a')));
   CHECK((longer == 431 || longer == 400));
-}
-
-TEST_CASE(
-    "pictures: errors have the name of the user's file, and no file outside of the workspace is shown") {
-  const Served lab;
-  const std::string bytes = lab.own() + "Content-Type: application/octet-stream\r\n";
-  const std::string json = lab.own() + "Content-Type: application/json\r\n";
-  const auto error = [](const std::string& answer) { return Json::parse(test::body_of(answer)); };
-  for (const char* content :
-       {"these are notes", "", "P5\n4 4\n255\n0123456789abcdef", "P5\n640 480\n255\nshort"}) {
-    const std::string a = lab.ask("POST /api/upload?name=..%2fmy%20notes.pgm", bytes, content);
-    INFO(a);
-    CHECK(status_of(a) == 422);
-    CHECK(error(a)["where"] == "my notes.pgm");
-    for (const char* part : {"upload-", ".part", "/tmp", "original-"})
-      CHECK(a.find(part) == std::string::npos);
-  }
-  std::string picture = "P5\n80 64\n255\n";
-  for (int i = 0; i < 80 * 64; ++i) picture += char(60 + i % 80);
-  const std::string a = lab.ask("POST /api/upload?name=flat.pgm", bytes, picture);
-  REQUIRE(status_of(a) == 200);
-  const Json found = error(a);
-  CHECK(found["found"] == false);
-  const std::string upload = found["upload"];
-  const auto keep = [&](const std::string& what) {
-    return lab.ask("POST /api/pictures/keep", json, Json{{"upload", what}, {"name", "flat.pgm"}}.dump());
-  };
-  CHECK(error(keep(upload))["file"] == "pictures/flat.pgm");
-  CHECK(read_file(lab.folder() / "pictures/flat.pgm") == picture);
-  for (const char* bad : {"original-99.pgm", "../secret.txt", "original-/../../secret.txt", "shown-1.png"})
-    CHECK(status_of(keep(bad)) >= 400);
-  CHECK(test::body_of(lab.get("/api/pictures/shown.png?file=pictures/flat.pgm")).starts_with("\x89PNG"));
-  CHECK(error(lab.get("/api/pictures")) == Json({"pictures/flat.pgm"}));
-  const std::string again = lab.ask("POST /api/pictures/detect", json, R"({"file": "pictures/flat.pgm"})");
-  CHECK(error(again)["file"] == "pictures/flat.pgm");
-  for (const char* bad : {"/etc/passwd", "../secret.txt", "secret.txt", "none.png", ""}) {
-    INFO(bad);
-    CHECK(status_of(lab.get(std::string("/api/pictures/shown.png?file=") + bad)) >= 400);
-    CHECK(status_of(lab.ask("POST /api/pictures/detect", json, Json{{"file", bad}}.dump())) >= 400);
-  }
-}
-
-TEST_CASE("the index of the gallery orders the scenes; the others and a damaged index follow") {
-  const Served lab;
-  const auto names = [&] {
-    std::vector<std::string> all;
-    for (const Json& s : Json::parse(test::body_of(lab.get("/api/scenes")))) all.push_back(s["name"]);
-    return all;
-  };
-  write_file(lab.folder() / "scenes/two.toml", "title = 'Two'\n[[swarm]]\nmodel = 'basic'\n");
-  write_file(lab.folder() / "scenes/gallery.toml",
-             "[[scene]]\nname = 'two'\npurpose = 'thesis'\nsummary = 'S.'\n[[scene]]\nname = 'gone'\n");
-  CHECK(names() == std::vector<std::string>{"two", "one"});
-  const Json two = Json::parse(test::body_of(lab.get("/api/scenes")))[0];
-  CHECK(two["purpose"] == "thesis");
-  CHECK(two["summary"] == "S.");
-  CHECK(two["models"] == Json({"basic"}));
-  CHECK(two["controller"] == "fuzzy");
-  write_file(lab.folder() / "scenes/gallery.toml", "[[scene]]\npurpose = 'fun'\n");
-  CHECK(names() == std::vector<std::string>{"gallery.toml", "one", "two"});
 }
 
 TEST_CASE("a run with a damaged manifest does not hide the other runs") {

@@ -117,23 +117,22 @@ TEST_CASE("without scenes in the workspace, the gallery of the program is used")
   CHECK(Workspace(folder.path(), folder.path() / "none").scenes().empty());
 }
 
-TEST_CASE("S6: pictures are kept in the workspace under permitted names, and never replace a file") {
+TEST_CASE("S6: pictures are kept in the workspace, and never replace a file") {
   test::TemporaryFolder folder("workspace");
   const fs::path root = folder.path() / "work";
   fs::create_directories(root / "scenes");
   write_file(folder.path() / "upload", "picture");
   const Workspace w(root, {});
   const auto keep = [&](const char* name) { return w.keep_picture(folder.path() / "upload", name); };
-  CHECK(keep("a drop.tif") == "pictures/a-drop.tif");
-  CHECK(read_file(root / "pictures/a-drop.tif") == "picture");
-  CHECK(keep("a drop.tif") == "pictures/a-drop-2.tif");
+  CHECK(keep("a drop.tif") == "pictures/a drop.tif");
+  CHECK(read_file(root / "pictures/a drop.tif") == "picture");
+  CHECK(keep("a drop.tif") == "pictures/a drop-2.tif");
   CHECK(keep("../../out.tif") == "pictures/out.tif");
-  CHECK(keep("<img src=x>.png") == "pictures/img-src-x-.png");
-  CHECK_THROWS_AS(keep("..."), const Error&);
+  for (const char* bad : {"..", ".", "", "/", ".hidden.png"}) CHECK_THROWS_AS(keep(bad), const Error&);
   CHECK_FALSE(fs::exists(folder.path() / "out.tif"));
   write_file(root / "b.png", "");
-  CHECK(w.pictures() == std::vector<std::string>{"b.png", "pictures/img-src-x-.png", "pictures/a-drop-2.tif",
-                                                 "pictures/a-drop.tif", "pictures/out.tif"});
+  CHECK(w.pictures() == std::vector<std::string>{"b.png", "pictures/a drop-2.tif", "pictures/a drop.tif",
+                                                 "pictures/out.tif"});
   CHECK(w.scenario_file("pictures/out.tif") == fs::canonical(root) / "pictures/out.tif");
   CHECK_THROWS_AS((void)w.scenario_file("../upload"), const Error&);
   // A link in place of the folder or of a picture does not lead out of the workspace.

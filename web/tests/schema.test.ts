@@ -120,7 +120,8 @@ describe('presets', () => {
 
   const state = (table: Record<string, any>) => presetState(part, { type: 'rod', ...table });
   test('the preset that the table names, with the values that differ from it', () => {
-    expect(state({ preset: 'second', size: '2 um' })).toMatchObject({ preset: 'second', changed: ['spread'] });
+    expect(state({ preset: 'second' })).toMatchObject({ preset: 'second', changed: [] });
+    expect(state({ preset: 'second', size: '2 um', spread: 0 })).toMatchObject({ preset: 'second', changed: ['spread'] });
     expect(state({ preset: 'second', spread: 0.3, size: '9 um' })).toMatchObject({ preset: 'second', changed: ['size'] });
   });
   test('the preset with the values of a resolved table, in any unit', () => {

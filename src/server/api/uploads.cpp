@@ -8,10 +8,10 @@
 #include "core/error.h"
 #include "server/api/lab_services.h"
 #include "server/api/responses.h"
+#include "server/experiments/experiment_store.h"
 #include "server/request_values.h"
 #include "study/data/run_video.h"
 #include "study/pages/drop_report.h"
-#include "vision/files/picture.h"
 
 namespace faba {
 namespace {
@@ -83,7 +83,12 @@ Json keep(const LabServices& lab, const Json& asked) {
   const fs::path file = lab.pictures / fs::path(upload).filename();
   if (!upload.starts_with("original-") || !fs::is_regular_file(file))
     throw Error(Errc::input, upload, "the picture is not in the lab any more; choose it again");
-  return {{"file", lab.workspace.keep_picture(file, text_of(asked, "name"))}};
+  const std::string asked_name = text_of(asked, "name"),
+                    name = safe_name(fs::path(asked_name).filename().string());
+  if (name.empty())
+    throw Error(Errc::usage, "name",
+                fmt::format("\"{}\" must have at least one letter or digit", asked_name));
+  return {{"file", lab.workspace.keep_picture(file, name)}};
 }
 
 // Rendered again only if the file has changed.
@@ -97,7 +102,7 @@ WebResponse shown_picture(const LabServices& lab, const WebRequest& r) {
   if (ec) throw Error(Errc::input, named->second, "file not found");
   const fs::path png =
       lab.pictures / fmt::format("file-{:x}-{}.png", std::hash<std::string>()(file.string()), changed);
-  if (!fs::exists(png)) under_name(named->second, file, [&] { write_png(png, read_displayed(file)); });
+  if (!fs::exists(png)) under_name(named->second, file, [&] { write_displayed_picture(file, png); });
   return picture_answer(png);
 }
 

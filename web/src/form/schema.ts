@@ -126,7 +126,10 @@ export function presetState(part: Schema | undefined, table: Record<string, any>
   const { preset, type: _, ...properties } = part?.properties ?? {};
   const names = preset?.enum ?? [], values = (name: string) => preset?.['x-values']?.[name] ?? {};
   const custom = different(properties, table, {}).length, isDefault = custom === 0;
-  if (typeof table.preset === 'string') return { preset: table.preset, changed: different(properties, table, values(table.preset)), isDefault };
+  if (typeof table.preset === 'string') {
+    const given = values(table.preset); // values that the table does not give are those of the preset
+    return { preset: table.preset, changed: different(properties, { ...given, ...table }, given), isDefault: false };
+  }
   const distinctive = new Set(names.flatMap((a) => names.flatMap((b) => different(properties, values(a), values(b)))));
   const best = names
     .map((name) => ({ preset: name, changed: different(properties, table, values(name)) }))

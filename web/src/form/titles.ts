@@ -5,7 +5,7 @@ import type { Schema } from './schema';
 
 // Units in keys, which the value shows, and abbreviations.
 const kUnit = / (px|um|ms|sd)$/;
-const kWhole: Record<string, string> = {
+const kWords: Record<string, string> = {
   sd: 'standard deviation', px: '', psf: 'PSF', um: 'µm', fps: 'frames/s', places: 'positions', motility: 'motility law', alpha2: 'smoothness α²', rms: 'RMS',
 };
 
@@ -13,8 +13,8 @@ const kWhole: Record<string, string> = {
 function fromKey(key: string): string {
   const words = key.replaceAll('_', ' ');
   const ending = kUnit.exec(words)?.[1];
-  const rest = (ending ? words.replace(kUnit, '') : words).split(' ').map((w) => (Object.hasOwn(kWhole, w) ? kWhole[w] : w)).join(' ');
-  const text = ending === 'sd' ? `${rest}, ${kWhole.sd}` : rest;
+  const rest = (ending ? words.replace(kUnit, '') : words).split(' ').map((w) => (Object.hasOwn(kWords, w) ? kWords[w] : w)).join(' ');
+  const text = ending === 'sd' ? `${rest}, ${kWords.sd}` : rest;
   return text.charAt(0).toUpperCase() + text.slice(1);
 }
 

@@ -39,7 +39,7 @@ export interface Ruler {
 }
 
 export const kSteps = ['picture', 'edge', 'scale', 'cells', 'start'] as const;
-export type Place = 'edge' | 'centre' | 'whole';
+export type Place = 'edge' | 'centre' | 'anywhere';
 
 export interface Own {
   step: number;
@@ -70,7 +70,8 @@ export function withPicture(own: Own, d: Detection): Own {
   if (d.um_per_px) fresh.scale = 'metadata';
   return fresh;
 }
-export const detectedCircle = (d: Detection): Circle => ({ x: d.center_px[0], y: d.center_px[1], r: d.radius_px });
+const hundredths = (v: number) => Math.round(100 * v) / 100; // finer than the uncertainty of any edge
+export const detectedCircle = (d: Detection): Circle => ({ x: hundredths(d.center_px[0]), y: hundredths(d.center_px[1]), r: hundredths(d.radius_px) });
 
 const given = (v: number | null | undefined): v is number => typeof v === 'number' && Number.isFinite(v);
 
