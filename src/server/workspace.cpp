@@ -1,11 +1,14 @@
 #include "server/workspace.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
 #include "app/recording/run_lock.h"
 #include "app/recording/session.h"
 #include "core/error.h"
+#include "server/gallery_index.h"
 #include "study/data/run_video.h"
 
 namespace faba {
@@ -15,6 +18,9 @@ namespace fs = std::filesystem;
 constexpr std::size_t kLongest = 1000;
 constexpr std::size_t kMostFiles = 500, kMostRuns = 5000;
 constexpr std::array<const char*, 6> kVideos = {".mp4", ".avi", ".mkv", ".mov", ".webm", ".tif"};
+constexpr std::array<const char*, 8> kPictures = {".png",  ".jpg", ".jpeg", ".tif",
+                                                  ".tiff", ".pgm", ".ppm",  ".bmp"};
+constexpr const char* kPictureFolder = "pictures";
 
 Error out_of_reach(std::string_view name) {
   return {Errc::usage, std::string(name.substr(0, 80)), "is outside the folder in which the lab was started"};
@@ -126,24 +132,63 @@ std::string Workspace::in_page(const std::string& where) const {
 
 void Workspace::check_files(const Json& scenario) const {
   constexpr std::array<std::string_view, 2> kNaming = {"file", "background"};  // keys with a file name
-  const fs::path project = gallery_.parent_path();                             // scenes refer to ../rigs
   for (const auto& [key, value] : scenario.items()) {
     if (value.is_structured()) check_files(value);
     if (!value.is_string() || std::find(kNaming.begin(), kNaming.end(), key) == kNaming.end()) continue;
     const std::string name = value.get<std::string>();
     if (name.empty()) continue;  // a resolved scenario has every key: "" means no file
-    // Search order of a scenario: its folder, then the working directory.
-    std::error_code ec;
-    const bool beside = fs::exists(gallery_ / name, ec);
-    const fs::path real = fs::weakly_canonical((beside ? gallery_ : root_) / name, ec);
-    if (ec || (!lies_below(root_, real) && (project.empty() || !lies_below(project, real))))
-      throw out_of_reach(name);
-    if (fs::exists(real, ec) && !fs::is_regular_file(real, ec))
-      throw Error(Errc::usage, name, "is not a file");
+    (void)scenario_file(name);
   }
 }
 
-std::vector<fs::path> Workspace::scenes() const { return sorted_files(gallery_, ".toml"); }
+fs::path Workspace::scenario_file(const std::string& name) const {
+  const auto lies_below = [](const fs::path& folder, const fs::path& file) {
+    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+  };
+  const fs::path project = gallery_.parent_path();  // scenes refer to ../rigs
+  // Search order of a scenario: its folder, then the working directory.
+  std::error_code ec;
+  const bool beside = fs::exists(gallery_ / name, ec);
+  fs::path real = fs::weakly_canonical((beside ? gallery_ : root_) / name, ec);
+  if (ec || (!lies_below(root_, real) && (project.empty() || !lies_below(project, real))))
+    throw out_of_reach(name);
+  if (fs::exists(real, ec) && !fs::is_regular_file(real, ec)) throw Error(Errc::usage, name, "is not a file");
+  return real;
+}
+
+std::vector<std::string> Workspace::pictures() const {
+  std::vector<std::string> found;
+  std::error_code ec;
+  for (const char* folder : {".", kPictureFolder, "videos", "data"})
+    for (const char* kind : kPictures)
+      for (const fs::path& f : sorted_files(root_ / folder, kind))
+        found.push_back(fs::relative(f, root_, ec).string());
+  for (const auto& video : files()["videos"])
+    if (std::find(found.begin(), found.end(), video) == found.end()) found.push_back(video);
+  return found;
+}
+
+std::string Workspace::keep_picture(const fs::path& file, const std::string& name) const {
+  const fs::path wanted = fs::path(name).filename();
+  const fs::path folder = inside(fmt::format("{}/{}", kPictureFolder, wanted.string())).parent_path();
+  fs::create_directories(folder);
+  for (int i = 1;; ++i) {
+    const std::string free =
+        i == 1 ? wanted.string()
+               : fmt::format("{}-{}{}", wanted.stem().string(), i, wanted.extension().string());
+    std::error_code ec;
+    if (fs::copy_file(file, folder / free, ec)) return fmt::format("{}/{}", kPictureFolder, free);
+    if (!fs::exists(fs::symlink_status(folder / free)))
+      throw Error(Errc::internal, fmt::format("{}/{}", kPictureFolder, free),
+                  "the picture cannot be stored: " + ec.message());
+  }
+}
+
+std::vector<fs::path> Workspace::scenes() const {
+  std::vector<fs::path> found = sorted_files(gallery_, ".toml");
+  std::erase_if(found, [](const fs::path& f) { return f.filename() == kGalleryIndex; });
+  return found;
+}
 
 fs::path Workspace::scene(std::string_view name) const {
   for (const fs::path& file : scenes())
