@@ -5,7 +5,7 @@
 #include "app/scenario/parts.h"
 #include "server/api/routes.h"
 #include "server/experiments/experiment_store.h"
-#include "server/job_list.h"
+#include "server/jobs/job_list.h"
 #include "server/workspace.h"
 
 namespace faba {
@@ -26,6 +26,7 @@ void add_bench_routes(Routes& routes, const LabServices& lab);
 void add_experiment_routes(Routes& routes, const LabServices& lab);
 void add_gallery_routes(Routes& routes, const LabServices& lab);
 void add_job_routes(Routes& routes, const LabServices& lab);
+void add_input_routes(Routes& routes, const LabServices& lab);
 void add_run_routes(Routes& routes, const LabServices& lab);
 void add_scenario_routes(Routes& routes, const LabServices& lab);
 void add_upload_routes(Routes& routes, const LabServices& lab);

@@ -1,4 +1,4 @@
-#include "server/job_list.h"
+#include "server/jobs/job_list.h"
 
 #include <doctest/doctest.h>
 
