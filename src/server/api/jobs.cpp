@@ -11,6 +11,8 @@
 #include "server/jobs/job_estimate.h"
 #include "server/jobs/job_words.h"
 #include "server/request_values.h"
+#include "study/identify/identify_study.h"
+#include "study/steering/controller_study.h"
 
 namespace faba {
 namespace {
@@ -165,6 +167,10 @@ Json kinds() {
 }  // namespace
 
 void add_job_routes(Routes& routes, const LabServices& lab) {
+  routes.add("GET", "/api/schema/identify",
+             [](const auto&, const auto&) { return json_answer(identify_study_schema()); });
+  routes.add("GET", "/api/schema/compare-controllers",
+             [](const auto&, const auto&) { return json_answer(controller_study_schema()); });
   routes.add("GET", "/api/job-kinds", [](const auto&, const auto&) { return json_answer(kinds()); });
   routes.add("GET", "/api/jobs", [&lab](const auto&, const auto&) { return json_answer(jobs(lab)); });
   routes.add("POST", "/api/jobs",

@@ -1,10 +1,11 @@
 #include "server/jobs/composed_study.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <array>
 #include <atomic>
-#include <cmath>
+#include <cctype>
 
 #include "core/error.h"
 #include "core/file.h"
@@ -20,12 +21,22 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char* kStudies = "studies";
 
+// The name that a page uses for a scene of the gallery with this stem; empty if there is none.
+std::string scene_name(const std::string& name, const Workspace& w) {
+  for (const fs::path& scene : w.scenes())
+    if (scene.stem() == fs::path(name).stem()) return "scenes/" + scene.filename().string();
+  return "";
+}
+
 // Files of the page are relative to the workspace, those of a study file to its folder.
 void relocate(Json& table, const char* key, const fs::path& folder, const Workspace& w,
               const std::string& where) {
   if (!table.contains(key)) return;
   try {
-    const fs::path file = w.existing(table[key].is_string() ? table[key].get<std::string>() : "");
+    const std::string name = table[key].is_string() ? table[key].get<std::string>() : "";
+    // The gallery may be that of the program, outside the workspace.
+    const bool in_gallery = std::string_view(key) == "scene" && name == scene_name(name, w);
+    const fs::path file = in_gallery ? w.scene(fs::path(name).stem().string()) : w.existing(name);
     table[key] = file.lexically_relative(folder).generic_string();
   } catch (const Error& e) {
     throw Error(Errc::usage, where + key, e.what());
