@@ -6,7 +6,6 @@
 #include "app/recording/run_lock.h"
 #include "app/recording/session.h"
 #include "core/error.h"
-#include "study/data/run_video.h"
 
 namespace faba {
 namespace {
@@ -14,7 +13,6 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::size_t kLongest = 1000;
 constexpr std::size_t kMostFiles = 500;
-constexpr std::array<const char*, 6> kVideos = {".mp4", ".avi", ".mkv", ".mov", ".webm", ".tif"};
 
 Error out_of_reach(std::string_view name) {
   return {Errc::usage, std::string(name.substr(0, 80)), "is outside the folder in which the lab was started"};
@@ -34,23 +32,6 @@ bool holds_run(const fs::path& dir) {
   std::error_code ec;
   return fs::is_regular_file(dir / run_files::kManifest, ec) &&
          fs::is_regular_file(dir / run_files::kScenario, ec);
-}
-
-// One entry of the list of coil systems: its file, the number of its coils (0 if the file is not readable),
-// and whether it has default currents.
-Json rig_card(const fs::path& file) {
-  Json card = {{"file", "rigs/" + file.filename().string()}, {"coils", 0}, {"currents", false}};
-  try {
-    const Document d = read_toml(file);
-    const auto coils = d.root.find("coil");
-    if (coils == d.root.end() || !coils->is_array()) return card;
-    card["coils"] = coils->size();
-    card["currents"] =
-        std::any_of(coils->begin(), coils->end(), [](const Json& c) { return c.contains("current"); });
-  } catch (const Error&) {
-    return card;  // the job reports the error
-  }
-  return card;
 }
 
 }  // namespace
@@ -138,35 +119,6 @@ std::vector<std::string> Workspace::runs() const {
   for (auto& [_, name] : found)
     if (names.size() < kMostFiles) names.push_back(std::move(name));
   return names;
-}
-
-Json Workspace::files() const {
-  Json videos = Json::array(), studies = Json::array(), rigs = Json::array();
-  for (const std::string& run : runs()) {
-    try {
-      if (has_camera_video(root_ / "runs" / run)) videos.push_back("runs/" + run);
-    } catch (const Error&) {
-      continue;  // damaged or incomplete
-    }
-  }
-  std::error_code ec;
-  for (const char* folder : {".", "videos", "data"})
-    for (const char* kind : kVideos)
-      for (const fs::path& f : sorted_files(root_ / folder, kind))
-        videos.push_back(fs::relative(f, root_, ec).string());
-  for (const fs::path& f : sorted_files(root_ / "studies", ".toml")) {
-    try {
-      const Document d = read_toml(f);
-      const char* verb = d.root.contains("scene") && d.root["scene"].is_string() ? "compare-controllers"
-                         : d.root.contains("model")                              ? "identify"
-                                                                                 : "activity";
-      studies.push_back({{"file", "studies/" + f.filename().string()}, {"verb", verb}});
-    } catch (const Error&) {
-      continue;  // not a study, or incomplete
-    }
-  }
-  for (const fs::path& f : sorted_files(root_ / "rigs", ".toml")) rigs.push_back(rig_card(f));
-  return {{"videos", videos}, {"studies", studies}, {"rigs", rigs}};
 }
 
 }  // namespace faba

@@ -51,14 +51,13 @@ writeFileSync(file('readings.csv'), 'width_um,px_1,px_2\n100,10,295\n200,20,590\
   writeFileSync(file('ruler.pgm'), Buffer.concat([Buffer.from(`P5\n${w} ${h}\n255\n`), grey]));
 }
 {
-  const points = ['x,y,z'];
-  for (let i = -2; i <= 2; i++) for (let j = -2; j <= 2; j++) points.push(`${i * 1e-3},${j * 1e-3},0`);
-  const currents = ['--current', '0.5,0.5,0.2,0'];
-  const measured = execFileSync(program, ['field', 'at', 'rigs/thesis-four-coils.toml', ...currents], { cwd: workspace, input: points.join('\n') + '\n', encoding: 'utf8' });
-  writeFileSync(file('measured.csv'), measured.replace(/^[^\n]*/, 'x_m,y_m,z_m,bx_T,by_T,bz_T'));
   const rig = readFileSync(file('rigs/thesis-four-coils.toml'), 'utf8');
   let k = 0;
-  writeFileSync(file('rigs/measured.toml'), rig.replaceAll(/\[\[coil\]\]\n/g, (c) => `${c}current = "${[0.5, 0.5, 0.2, 0][k++]} A"\n`));
+  writeFileSync(file('rigs/measured.toml'), rig.replaceAll('[[coil]]\n', (c) => `${c}current = "${[0.5, 0.5, 0.2, 0][k++]} A"\n`));
+  const points = ['x_m,y_m,z_m'];
+  for (let i = -2; i <= 2; i++) for (let j = -2; j <= 2; j++) points.push(`${i * 1e-3},${j * 1e-3},0`);
+  writeFileSync(file('points.csv'), `${points.join('\n')}\n`);
+  writeFileSync(file('measured.csv'), execFileSync(program, ['field', 'at', 'rigs/measured.toml', '--points', 'points.csv'], { cwd: workspace, encoding: 'utf8' }));
 }
 
 await step('the page Analyse lists the kinds by group', async () => {
