@@ -234,58 +234,6 @@ await step('the picture is drawn with WebGL', async () => {
   await page.evaluate(() => localStorage.removeItem('faba.renderer'));
 });
 
-await step('a job continues when the page is reloaded, and is cancelled', async () => {
-  await tab('Analyse');
-  writeFileSync(join(workspace, 'studies/long.toml'), readFileSync(join(workspace, 'studies/controllers.toml'), 'utf8').replace('seeds = 20', 'seeds = 2000'));
-  await page.reload();
-  await tab('Analyse');
-  await page.getByLabel('Study').selectOption('studies/long.toml');
-  await page.locator('form', { hasText: 'Identify' }).getByRole('button', { name: 'Start' }).click();
-  const job = page.locator('li', { hasText: 'long.toml' });
-  await job.getByText(/^running/).waitFor();
-  await page.reload();
-  await tab('Analyse');
-  await job.getByText(/^running/).waitFor();
-  await job.getByRole('button', { name: 'Cancel' }).click();
-  await job.getByText('cancelled').waitFor();
-  await shot('analyse');
-});
-
-await step('a field map and the activity of a video are shown', async () => {
-  const show = async (form, title, what) => {
-    await page.locator('form', { hasText: form }).getByRole('button', { name: 'Start' }).click();
-    const job = page.locator('li', { hasText: title }).first();
-    await job.getByRole('button', { name: 'Open' }).click({ timeout: kJobPatience });
-    await page.locator(what).waitFor();
-  };
-  await page.getByLabel('Coil system').selectOption('rigs/thesis-four-coils.toml');
-  const map = page.locator('form', { hasText: 'Field map' }).getByRole('button', { name: 'Start' });
-  await map.click();
-  await page.getByText('must be numbers in A').waitFor();
-  await page.getByLabel('Currents, A').fill('0.5');
-  await map.click();
-  await page.getByText('as many numbers as the file has coils: 4').waitFor();
-  await page.getByLabel('Currents, A').fill('0.5, 0.5, 0, 0');
-  await show('Field map', 'field map', '.page img');
-  await until(() => page.evaluate(() => document.querySelector('.page > section > img').naturalWidth > 0), 'the field map is shown');
-  await shot('field');
-  await page.getByRole('button', { name: 'Close' }).click();
-  faba('run', 'scenes/as-seen.toml', '--as-seen', '--duration', '3 s', '--out', 'runs/seen', '--seed', '3');
-  await page.locator('form', { hasText: 'Activity' }).getByLabel('Video or run').fill('runs/seen');
-  await show('Activity', 'activity', 'iframe');
-  assert.ok((await page.frameLocator('iframe').locator('svg').count()) > 0, 'the page has no plots');
-  // The report has the theme of the lab.
-  const ground = () => page.frameLocator('iframe').locator('body').evaluate((b) => getComputedStyle(b).backgroundColor);
-  assert.equal(await ground(), 'rgb(255, 255, 255)');
-  await page.getByLabel('Light or dark theme').click();
-  await until(async () => (await ground()) === 'rgb(23, 27, 31)', 'the report is dark');
-  await page.getByLabel('Light or dark theme').click();
-  await until(async () => (await ground()) === 'rgb(255, 255, 255)', 'the report is light');
-  await page.waitForTimeout(300);
-  await shot('activity');
-  await page.getByRole('button', { name: 'Close' }).click();
-});
-
 await step('camera of a bench: picture, gain, and calibration with a ruler', async () => {
   // A ruler with dark marks every 12.4 px on a bright background; every tenth mark is longer.
   const [w, h, pitch] = [640, 480, 12.4], grey = Buffer.alloc(w * h, 205);
