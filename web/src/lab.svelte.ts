@@ -21,6 +21,10 @@ export interface Job {
   words: string[];
   page: string;
   out: string;
+  /** Kind of job; empty for a recording. */
+  kind: string;
+  /** Run time estimated before the start, s; 0: unknown. */
+  estimate_s: number;
   state: 'waiting' | 'running' | 'done' | 'failed' | 'cancelled';
   doing: string;
   done: number;
@@ -53,6 +57,10 @@ export class Lab {
   /** Present scenario, resolved. */
   scenario = $state.raw<Record<string, any>>({});
   jobs = $state.raw<Job[]>([]);
+  /** The newest change of an experiment by any page, and the number of changes. */
+  experimentNews = $state.raw({ name: '', count: 0 });
+  /** A list of jobs was received. */
+  hasJobs = $state(false);
   /** JSON Schema of a scenario; null until the program has sent it. */
   schema = $state.raw<Schema | null>(null);
   trouble = $state.raw<Trouble | null>(null);
@@ -122,6 +130,9 @@ export class Lab {
         this.frame = null;
         break;
       }
+      case 'experiment':
+        this.experimentNews = { name: n.name, count: this.experimentNews.count + 1 };
+        break;
       case 'parts':
         this.scenario = n.scenario;
         this.events = n.events;
@@ -139,6 +150,7 @@ export class Lab {
         break;
       case 'jobs':
         this.jobs = n.jobs;
+        this.hasJobs = true;
         break;
       case 'stopped':
         this.stopped = { where: n.where, what: n.what };
