@@ -52,7 +52,7 @@ const tool = (name) => page.getByRole('group', { name: 'Tool' }).getByRole('butt
 
 await step('the list shows the videos with thumbnails', async () => {
   await page.goto(address);
-  await page.getByRole('heading', { name: 'Scenes' }).waitFor();
+  await page.getByRole('navigation').waitFor();
   await page.goto(`${base}/#/video`);
   const entry = page.getByRole('link', { name: 'runs/response' });
   await until(() => entry.locator('img').evaluate((i) => i.naturalWidth > 100), 'the thumbnail');
@@ -100,7 +100,7 @@ await step('the slider and a click on the time axis go to a time', async () => {
 await step('playing shows the frames in real time, to the end', async () => {
   await page.keyboard.press('Home');
   await atFrame(0);
-  await page.getByLabel('Speed').selectOption('2');
+  await page.locator('.viewer .speed select').selectOption('2');
   await page.getByRole('button', { name: 'Play', exact: true }).click();
   await until(async () => (await frame()) > 20, 'playing');
   await page.getByRole('button', { name: 'Play', exact: true }).waitFor(); // at the end
