@@ -1,12 +1,14 @@
 // Test of the video viewer in a browser. Stops with an error at the first failed step. With --pictures FOLDER it saves
 // screenshots of the page in FOLDER.
 //
-//   node tests/e2e/video_viewer_test.mjs --program build/faba --root . [--pictures FOLDER]
+// With --data FOLDER it opens the recordings in this folder, too (tests/real).
+//
+//   node tests/e2e/video_viewer_test.mjs --program build/faba --root . [--data ../shared/data] [--pictures FOLDER]
 
 import assert from 'node:assert/strict';
-import { readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, existsSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { address, browser, complaints, elsewhere, faba, lab, page, shot, step, until, workspace } from './lab_page.mjs';
+import { address, browser, complaints, elsewhere, faba, lab, option, page, shot, step, until, workspace } from './lab_page.mjs';
 
 const kScene = ['run', 'scenes/as-seen.toml', '--seed', '1', '--duration', '3 s'];
 faba(...kScene, '--out', 'runs/response'); // 15 frames per second, 45 frames, field reversal at 1 s
@@ -223,6 +225,49 @@ await step('damaged files and files that are not videos are explained', async ()
   complaints.length = 0; // the browser reports the refused requests
 });
 
+const data = option('data');
+if (!data || !existsSync(join(data, 'step-response'))) console.log('skipped: recordings in --data');
+else {
+  cpSync(join(data, 'step-response/rollers.mp4'), join(workspace, 'rollers.mp4'));
+  for (const folder of ['suspension', 'drops', 'beads']) cpSync(join(data, folder), join(workspace, folder), { recursive: true });
+
+  await step('micro-rollers: the eight segments are adopted, and their direction is drawn', async () => {
+    // Times from the description of the recordings; the program has clockwise directions: 270 up, 90 down.
+    const times = [[5.6, 8.5, 270], [12.6, 18.2, 90], [20.5, 23.2, 90], [25.8, 32.3, 270], [35.2, 38.4, 270], [45.2, 58.4, 90], [61, 68.9, 270], [69.5, 73.6, 90]];
+    writeFileSync(join(workspace, 'segments.json'), JSON.stringify({ videos: [{ segments: times.map(([t0_s, t1_s, direction_deg]) => ({ t0_s, t1_s, direction_deg })) }] }));
+    await open('rollers.mp4');
+    await page.getByText('frame 1 of 1037').waitFor();
+    await page.locator('input[type="file"]').setInputFiles(join(workspace, 'segments.json'));
+    await page.getByRole('button', { name: 'Use the segments found' }).click();
+    await page.getByRole('button', { name: 'Go to segment 8' }).click();
+    await until(async () => Math.abs((await time()) - 69.5) < 0.08, 'the start of segment 8');
+    for (const [i, [, , deg]] of times.entries()) assert.equal(await page.getByLabel(`Segment ${i + 1}: direction (°)`).inputValue(), String(360 - deg));
+    assert.equal(await page.locator('.axis [data-segment]').count(), 8);
+    await shot('video-rollers');
+  });
+  await step('suspension and beads are displayed without a scale, and the edge of a drop over its picture', async () => {
+    await open('suspension');
+    await page.getByText('frame 1 of 25').waitFor();
+    await page.getByText('the times are numbers of frames').waitFor();
+    await page.locator('h2').click();
+    await page.keyboard.press('End');
+    await atFrame(24);
+    await tool('Ruler');
+    await drag(await place(100, 100), await place(200, 100));
+    assert.match(await page.locator('[data-read="ruler"]').textContent(), /^(99|100|101)\.\d px$/);
+    await open('beads/bulk-water.mov');
+    await page.getByText('frame 1 of 480').waitFor();
+    await open('drops/00000.tif');
+    await page.getByText('518 × 488 px, 16 bit').waitFor();
+    const level = await grey(258, 60); // automatic contrast: the dim picture uses the grey scale
+    assert.ok(level > 40 && level < 220, `grey level ${level}`);
+    writeFileSync(join(workspace, 'edge.json'), JSON.stringify(faba('drop', 'drops/00000.tif')));
+    await page.locator('input[type="file"]').setInputFiles(join(workspace, 'edge.json'));
+    await page.getByLabel('Drop edge').waitFor();
+    await shot('video-drop');
+  });
+}
+
 await step('narrow windows and both languages', async () => {
   await open('runs/response');
   await atFrame(0);
@@ -236,6 +281,8 @@ await step('narrow windows and both languages', async () => {
   await page.getByLabel('Language').selectOption('pt');
   await page.getByRole('button', { name: 'Adicionar segmento' }).waitFor();
   await page.getByText('quadro 1 de 45').waitFor();
+  await page.getByRole('button', { name: 'Tema' }).click();
+  await until(() => page.evaluate(() => document.documentElement.dataset.theme === 'dark'), 'the dark theme');
   await shot('video-pt');
 });
 
