@@ -143,6 +143,15 @@ await step('results of the program are drawn over the picture', async () => {
   await page.getByText('as-seen.toml is not a file of tracks').waitFor();
 });
 
+await step('the flow to the next frame is computed and drawn', async () => {
+  const answer = page.waitForResponse((r) => r.url().includes('/api/videos/flow'));
+  await page.getByLabel('Flow to the next frame').check();
+  const { t_s, arrows } = await (await answer).json();
+  assert.ok(Math.abs(t_s - 1.2) < 1e-3 && arrows.length > 10, `${arrows.length} arrows at ${t_s} s`);
+  assert.ok(arrows.reduce((sum, a) => sum + a[2], 0) > 0, 'the cells swim to the right');
+  await page.getByLabel('Flow to the next frame').uncheck();
+});
+
 await step('segments are drawn on the time axis, and get their direction on the picture', async () => {
   const box = await page.locator('.axis svg').boundingBox(), at = (t) => [box.x + (t / 3) * box.width, box.y + 56];
   await drag(at(0.2), at(0.8));
@@ -261,9 +270,8 @@ else {
     await page.getByText('518 × 488 px, 16 bit').waitFor();
     const level = await grey(258, 60); // automatic contrast: the dim picture uses the grey scale
     assert.ok(level > 40 && level < 220, `grey level ${level}`);
-    writeFileSync(join(workspace, 'edge.json'), JSON.stringify(faba('drop', 'drops/00000.tif')));
-    await page.locator('input[type="file"]').setInputFiles(join(workspace, 'edge.json'));
-    await page.getByLabel('Drop edge').waitFor();
+    await page.getByRole('button', { name: 'Find drop edge' }).click();
+    await page.getByLabel('Drop edge', { exact: true }).waitFor();
     await shot('video-drop');
   });
 }

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <atomic>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <string>
@@ -69,7 +70,7 @@ class VideoLab {
   test::TemporaryFolder folder_;
   Workspace workspace_;
   JobList jobs_;
-  Api api_{workspace_, jobs_, path() / "pictures", {}};
+  Api api_{workspace_, jobs_, path() / "pictures", {}, [](const Json&) {}};
 };
 
 struct SentFrame {
@@ -151,6 +152,39 @@ TEST_CASE("width, contrast and a frame by its number") {
   CHECK(h["counts"] == Json{kWidth * kHeight});
   const WebResponse picture = lab.get("thumbnail.png", {{"file", "a.avi"}});
   CHECK(read_file(picture.file).starts_with("\x89PNG"));
+}
+
+TEST_CASE("the flow to the next frame, and the edge of a drop") {
+  VideoLab lab;
+  // A bright disc moves to the right and up, on a grey background.
+  VideoWriter writer(lab.path() / "disc.part", VideoFormat::lossless_avi, 200, 160, 10, 0,
+                     VideoPixels::grey8);
+  for (int k = 0; k < 3; ++k) {
+    Gray8 frame(200, 160, 90);
+    for (int row = 0; row < 160; ++row)
+      for (int col = 0; col < 200; ++col) {
+        const double d = std::hypot(col - 100 - k, row - 80 + k) - 40;
+        frame.at(col, row) = std::uint8_t(90 + 110 / (1 + std::exp(d / 3)));
+      }
+    writer.write(frame);
+  }
+  writer.finish(lab.path() / "disc.avi");
+  const Json flow = lab.json("flow", {{"file", "disc.avi"}, {"t", "0.1"}});
+  CHECK(flow["t_s"].get<double>() == doctest::Approx(0.1));
+  REQUIRE(flow["arrows"].size() > 4);
+  double u = 0, v = 0;
+  for (const Json& arrow : flow["arrows"]) {
+    CHECK(std::fabs(std::hypot(arrow[0].get<double>() - 101, arrow[1].get<double>() - 79) - 40) < 25);
+    u += arrow[2].get<double>();
+    v += arrow[3].get<double>();
+  }
+  CHECK(u > 0);
+  CHECK(v < 0);  // up
+  CHECK(lab.json("flow", {{"file", "disc.avi"}, {"t", "9"}})["arrows"].empty());
+  const Json edge = lab.json("edge", {{"file", "disc.avi"}, {"t", "0.2"}});
+  CHECK(edge["center_px"][0].get<double>() == doctest::Approx(102).epsilon(0.03));
+  CHECK(edge["center_px"][1].get<double>() == doctest::Approx(78).epsilon(0.03));
+  CHECK(edge["radius_px"].get<double>() == doctest::Approx(40).epsilon(0.06));
 }
 
 TEST_CASE("what is not a video is refused with its name in the workspace and the reason") {

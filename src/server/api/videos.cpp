@@ -8,6 +8,9 @@
 #include "server/api/lab_services.h"
 #include "server/api/responses.h"
 #include "server/videos/open_videos.h"
+#include "study/data/frame_flow.h"
+#include "study/drop/proposed_drop.h"
+#include "study/pages/drop_report.h"
 
 namespace faba {
 namespace {
@@ -109,6 +112,16 @@ Json end_of(VideoFrames& video) {
   return {{"frames", last->index + 1}, {"length_s", last->t_s + 1 / rate}, {"damage", video.damage()}};
 }
 
+// The flow from a frame to the next one; no arrows at the end.
+Json flow_json(const WebRequest& r, VideoFrames& video) {
+  const VideoFrameRef first = video.at(time_of(r, video)), second = video.next();
+  Json arrows = Json::array();
+  if (second)
+    for (const FlowArrow& a : flow_arrows(first->grey, second->grey, video.bits()))
+      arrows.push_back({a.x, a.y, a.u, a.v});
+  return {{"t_s", first->t_s}, {"arrows", arrows}};
+}
+
 template <class T>
 void append(std::string& out, const T& value) {
   out.append(reinterpret_cast<const char*>(&value), sizeof value);
@@ -172,6 +185,16 @@ void add_video_routes(Routes& routes, const LabServices& lab) {
   routes.add("GET", "/api/videos/histogram", [with](const auto& r, const auto&) {
     Json j;
     with(r, [&](VideoFrames& v) { j = histogram_json(grey_histogram(v.at(time_of(r, v))->grey)); });
+    return json_answer(j);
+  });
+  routes.add("GET", "/api/videos/flow", [with](const auto& r, const auto&) {
+    Json j;
+    with(r, [&](VideoFrames& v) { j = flow_json(r, v); });
+    return json_answer(j);
+  });
+  routes.add("GET", "/api/videos/edge", [with](const auto& r, const auto&) {
+    Json j;
+    with(r, [&](VideoFrames& v) { j = drop_json(propose_drop(v.at(time_of(r, v))->grey, text(r, "file"))); });
     return json_answer(j);
   });
   routes.add("GET", "/api/videos/frame", [with](const auto& r, const auto&) {
