@@ -14,8 +14,8 @@ const kScene = ['run', 'scenes/as-seen.toml', '--seed', '1', '--duration', '3 s'
 faba(...kScene, '--out', 'runs/response'); // 15 frames per second, 45 frames, field reversal at 1 s
 faba('track', 'runs/response', '--out', 'tracks.csv', '--swarm', 'swarm.csv');
 faba('activity', 'runs/response', '--out', 'activity.csv');
-const whole = readFileSync(join(workspace, 'runs/response/video.avi'));
-writeFileSync(join(workspace, 'cut.avi'), whole.subarray(0, whole.length / 2));
+const complete = readFileSync(join(workspace, 'runs/response/video.avi'));
+writeFileSync(join(workspace, 'cut.avi'), complete.subarray(0, complete.length / 2));
 writeFileSync(join(workspace, 'empty.mp4'), '');
 writeFileSync(join(workspace, 'notes <b>1.mp4'), 'These are notes.\n');
 

@@ -41,8 +41,8 @@ std::string truncated_recording(const fs::path& path) {
     writer.write(frame);
   }
   writer.finish(path);
-  const std::string whole = read_file(path);
-  return whole.substr(0, whole.size() / 2);
+  const std::string complete = read_file(path);
+  return complete.substr(0, complete.size() / 2);
 }
 
 class VideoLab {

@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { directionOf, flipped, normalised, unitVector, wholeDegrees } from '../src/video/angles';
+import { directionOf, flipped, normalised, unitVector, roundedDegrees } from '../src/video/angles';
 
 describe('directions are counter-clockwise from the right, in a picture with y down', () => {
   test.each([
@@ -19,7 +19,7 @@ describe('directions are counter-clockwise from the right, in a picture with y d
 test('angles are between 0 and 360 degrees', () => {
   expect([-90, 360, 720, 450, -1e-20].map(normalised)).toEqual([270, 0, 0, 90, 0]);
   expect(Object.is(normalised(-0), 0)).toBe(true);
-  expect([359.7, 12.4].map(wholeDegrees)).toEqual([0, 12]);
+  expect([359.7, 12.4].map(roundedDegrees)).toEqual([0, 12]);
 });
 test('the program measures clockwise: 90 degrees is down', () => {
   expect([0, 90, 180, 332].map(flipped)).toEqual([0, 270, 180, 28]);

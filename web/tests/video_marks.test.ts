@@ -26,7 +26,7 @@ describe('segments', () => {
 });
 
 describe('places in the picture', () => {
-  test('a region is in whole pixels inside the picture', () => {
+  test('a region is in integer pixels inside the picture', () => {
     expect(regionBetween([50.4, 20], [10.2, -5], [100, 80])).toEqual({ x: 10, y: 0, width: 40, height: 20 });
     expect(regionBetween([90, 70], [500, 500], [100, 80])).toEqual({ x: 90, y: 70, width: 10, height: 10 });
     expect(regionBetween([5, 5], [5.4, 60], [100, 80])).toBeNull();

@@ -67,7 +67,7 @@ double time_of(const WebRequest& r, const VideoFrames& video) {
 }
 
 // The full grey scale of 8 bits; of more bits, cameras often use a small part.
-FrameLook usual_look(const VideoFrames& video, const VideoFrame& frame) {
+FrameLook default_look(const VideoFrames& video, const VideoFrame& frame) {
   if (video.bits() <= 8) return {};
   const GreyHistogram h = grey_histogram(frame.grey);
   return {.low = h.low, .high = h.high};
@@ -75,7 +75,7 @@ FrameLook usual_look(const VideoFrames& video, const VideoFrame& frame) {
 
 FrameLook look_of(const WebRequest& r, const VideoFrames& video, const VideoFrame& frame) {
   FrameLook look;
-  if (text(r, "low").empty() || text(r, "high").empty()) look = usual_look(video, frame);
+  if (text(r, "low").empty() || text(r, "high").empty()) look = default_look(video, frame);
   look.low = number(r, "low", look.low);
   look.high = number(r, "high", look.high);
   look.width = width_of(r);
@@ -89,7 +89,7 @@ Json histogram_json(const GreyHistogram& h) {
 
 Json about(VideoFrames& video) {
   const double rate = video.fps() > 0 ? video.fps() : 1;
-  const FrameLook look = usual_look(video, *video.at(0));
+  const FrameLook look = default_look(video, *video.at(0));
   const VideoScale& scale = video.scale();
   return {{"width", video.width()},
           {"height", video.height()},
@@ -129,7 +129,7 @@ void append(std::string& out, const T& value) {
 
 // See web/protocol.md.
 void append_frame(std::string& out, const VideoFrame& frame, const FrameLook& look) {
-  const Gray8 shown = looked_at(frame.grey, look);
+  const Gray8 shown = displayed_frame(frame.grey, look);
   append(out, std::uint32_t(16 + shown.px.size()));
   append(out, frame.t_s);
   append(out, std::uint32_t(frame.index));
@@ -160,7 +160,7 @@ WebResponse thumbnail(const LabServices& lab, const WebRequest& r) {
     with_video(alone, lab, r, [&](VideoFrames& video) {
       const VideoFrameRef first = video.at(0);
       const GreyHistogram h = grey_histogram(first->grey);
-      write_file(file, looked_at_png(first->grey, {kThumbnailWidth, h.low, h.high}));
+      write_file(file, displayed_png(first->grey, {kThumbnailWidth, h.low, h.high}));
     });
   return file_answer(file);
 }
@@ -201,7 +201,7 @@ void add_video_routes(Routes& routes, const LabServices& lab) {
     WebResponse png{.type = "image/png", .body = {}};
     with(r, [&](VideoFrames& v) {
       const VideoFrameRef frame = v.at(time_of(r, v));
-      png.body = looked_at_png(frame->grey, look_of(r, v, *frame));
+      png.body = displayed_png(frame->grey, look_of(r, v, *frame));
     });
     return png;
   });

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMostIntervals = 256;
 constexpr double kSameTime = 1e-6;  // s, rounding of times that are computed from time stamps
-constexpr double kNear = 16;        // frames that are read on for, instead of seeking (assumed)
+constexpr double kReadOn = 16;      // frames that are read on for, instead of seeking (assumed)
 constexpr std::size_t kMostKnown = 12, kMostKnownBytes = std::size_t{48} << 20;
 
 }  // namespace
@@ -66,7 +66,7 @@ VideoFrameRef VideoFrames::last() {
 // Whether the frame at `t_s` is known, or one of the next.
 bool VideoFrames::covers(double t_s) const {
   if (known_.empty() || t_s + kSameTime < known_.front()->t_s) return false;
-  return ended_ || t_s <= known_.back()->t_s + kNear * interval_s_;
+  return ended_ || t_s <= known_.back()->t_s + kReadOn * interval_s_;
 }
 
 // Shows the last known frame that is not after `t_s`, or the first one.
@@ -94,7 +94,7 @@ bool VideoFrames::start_before(double t_s) {
 // file may be truncated before it.
 double VideoFrames::last_readable(double t_s) {
   double readable = 0, missing = t_s, t = 0;
-  while (missing - readable > std::max(1.0, kNear * interval_s_)) {
+  while (missing - readable > std::max(1.0, kReadOn * interval_s_)) {
     const double middle = (readable + missing) / 2;
     (reader_->seek(middle) && reader_->next(t) ? readable : missing) = middle;
   }
@@ -157,9 +157,9 @@ GreyHistogram grey_histogram(const GrayF& picture) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   h.least = double(*least);
   h.most = double(*most);
-  const bool whole = std::all_of(values.begin(), values.end(), [](float v) { return v == std::floor(v); });
+  const bool integers = std::all_of(values.begin(), values.end(), [](float v) { return v == std::floor(v); });
   const double range = h.most - h.least;
-  h.step = whole ? std::ceil((range + 1) / kMostIntervals) : std::max(range, 1e-30) / kMostIntervals;
+  h.step = integers ? std::ceil((range + 1) / kMostIntervals) : std::max(range, 1e-30) / kMostIntervals;
   h.counts.resize(std::min(std::size_t(range / h.step) + 1, kMostIntervals));
   for (const float v : values)
     ++h.counts[std::min(std::size_t((double(v) - h.least) / h.step), h.counts.size() - 1)];
@@ -173,7 +173,7 @@ GreyHistogram grey_histogram(const GrayF& picture) {
   return h;
 }
 
-Gray8 looked_at(const GrayF& picture, const FrameLook& look) {
+Gray8 displayed_frame(const GrayF& picture, const FrameLook& look) {
   const int most = look.width > 0 ? look.width : picture.width;
   const int side = std::min((picture.width + most - 1) / most, std::min(picture.width, picture.height));
   GrayF binned;
@@ -188,8 +188,8 @@ Gray8 looked_at(const GrayF& picture, const FrameLook& look) {
   return out;
 }
 
-std::string looked_at_png(const GrayF& picture, const FrameLook& look) {
-  const Gray8 shown = looked_at(picture, look);
+std::string displayed_png(const GrayF& picture, const FrameLook& look) {
+  const Gray8 shown = displayed_frame(picture, look);
   FrameEncoder encoder(FrameEncoder::Kind::png_grey, shown.width, shown.height);
   const auto bytes = encoder.encode(shown);
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};

@@ -74,8 +74,8 @@ class VideoFrames {
 /// Grey values of a picture, counted in up to 256 equal intervals from `least`.
 struct GreyHistogram {
   double least = 0, most = 0;
-  double step = 1;           ///< width of an interval; whole grey values where the picture has no others
-  double low = 0, high = 0;  ///< quantiles of 0.1 % and 99.9 %, for an automatic contrast
+  double step = 1;                   ///< width of an interval; integers where the picture has no others
+  double low = 0, high = 0;          ///< quantiles of 0.1 % and 99.9 %, for an automatic contrast
   std::vector<std::int64_t> counts;  ///< empty: no pixel is finite
 };
 /// Pixels that are not finite are not counted.
@@ -86,8 +86,8 @@ struct FrameLook {
   int width = 0;               ///< px, maximum; the frame is averaged over squares. 0: the size of the frame
   double low = 0, high = 255;  ///< grey values that are displayed black and white
 };
-Gray8 looked_at(const GrayF& picture, const FrameLook& look);
+Gray8 displayed_frame(const GrayF& picture, const FrameLook& look);
 /// The same as a PNG file.
-std::string looked_at_png(const GrayF& picture, const FrameLook& look);
+std::string displayed_png(const GrayF& picture, const FrameLook& look);
 
 }  // namespace faba

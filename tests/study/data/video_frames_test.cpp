@@ -116,12 +116,12 @@ TEST_CASE("a truncated video has its frames up to the damage, and the damage is 
 
   const std::string pages = media::read_bytes(stack(folder / "stack.tif", 9));
   media::write_bytes(folder / "short.tif", pages.substr(0, 3 * pages.size() / 5));
-  const std::vector<VideoFrame> whole = in_order(folder / "short.tif");
-  REQUIRE(whole.size() > 2);
-  REQUIRE(whole.size() < 9);
+  const std::vector<VideoFrame> complete = in_order(folder / "short.tif");
+  REQUIRE(complete.size() > 2);
+  REQUIRE(complete.size() < 9);
   VideoFrames cut(folder / "short.tif");
-  CHECK(cut.at(8)->grey.px == whole.back().grey.px);
-  CHECK(cut.at(1)->grey.px == whole[1].grey.px);
+  CHECK(cut.at(8)->grey.px == complete.back().grey.px);
+  CHECK(cut.at(1)->grey.px == complete[1].grey.px);
   CHECK_FALSE(cut.damage().empty());
 }
 
@@ -151,7 +151,7 @@ TEST_CASE("a histogram counts the finite grey values, and its quantiles leave ou
   CHECK(h.counts.back() == 1);
   const GreyHistogram none = grey_histogram(GrayF(3, 3, std::numeric_limits<float>::infinity()));
   CHECK(none.counts.empty());
-  // Whole grey values are not divided, so that the histogram has no gaps.
+  // Integer grey values are not divided, so that the histogram has no gaps.
   GrayF dim(2, 140);
   for (std::size_t i = 0; i < dim.px.size(); ++i) dim.px[i] = float(58 + i);
   const GreyHistogram even = grey_histogram(dim);
@@ -163,15 +163,15 @@ TEST_CASE("a displayed frame is averaged over squares and stretched between two 
   GrayF picture(9, 4);
   for (int row = 0; row < 4; ++row)
     for (int col = 0; col < 9; ++col) picture.at(col, row) = float(100 + 100 * (col / 3));
-  const Gray8 full = looked_at(picture, {.width = 0, .low = 100, .high = 300});
+  const Gray8 full = displayed_frame(picture, {.width = 0, .low = 100, .high = 300});
   CHECK(full.width == 9);
   CHECK(full.at(0, 0) == 0);
   CHECK(full.at(4, 3) == 128);
   CHECK(full.at(8, 0) == 255);
-  const Gray8 small = looked_at(picture, {.width = 3, .low = 200, .high = 250});
+  const Gray8 small = displayed_frame(picture, {.width = 3, .low = 200, .high = 250});
   CHECK(small.width == 3);
   CHECK(small.height == 1);
-  CHECK(small.px == std::vector<std::uint8_t>{0, 0, 255});  // below black, black, above white
-  CHECK(looked_at(picture, {.width = 8}).width == 4);       // at most the width asked for
-  CHECK(looked_at_png(picture, {}).starts_with("\x89PNG"));
+  CHECK(small.px == std::vector<std::uint8_t>{0, 0, 255});   // below black, black, above white
+  CHECK(displayed_frame(picture, {.width = 8}).width == 4);  // at most the width asked for
+  CHECK(displayed_png(picture, {}).starts_with("\x89PNG"));
 }

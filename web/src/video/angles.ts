@@ -16,5 +16,5 @@ export function unitVector(deg: number): [number, number] {
 /** Converts from the convention of the program (clockwise in the picture: 90 down), or to it. */
 export const flipped = (deg: number) => normalised(-deg);
 
-/** Rounded to a whole degree, for input by dragging. */
-export const wholeDegrees = (deg: number) => normalised(Math.round(deg));
+/** Rounded to a degree, for input by dragging. */
+export const roundedDegrees = (deg: number) => normalised(Math.round(deg));

@@ -56,7 +56,7 @@ export function withEdge(segments: Segment[], i: number, edge: 'from_s' | 'to_s'
 /** Index of the segment that contains `t`; -1: none. */
 export const segmentAt = (segments: Segment[], t: number) => segments.findIndex((s) => t >= s.from_s && t < s.to_s);
 
-/** The rectangle between two corners in whole pixels, inside the picture; null if it is empty. */
+/** The rectangle between two corners in integer pixels, inside the picture; null if it is empty. */
 export function regionBetween(a: Point, b: Point, size: Point): Region | null {
   const inside = (v: number, most: number) => Math.min(Math.max(Math.round(v), 0), most);
   const x0 = inside(Math.min(a[0], b[0]), size[0]), x1 = inside(Math.max(a[0], b[0]), size[0]);
@@ -75,8 +75,8 @@ export const polygonText = (points: Point[]) => points.map((p) => p.map(Math.rou
 export function readMarks(stored: unknown): VideoMarks {
   const m = (stored ?? {}) as Partial<VideoMarks>, marks = noMarks();
   if (Number.isFinite(m.reversal_s)) marks.reversal_s = m.reversal_s!;
-  const whole = (s: Segment) => Number.isFinite(s?.from_s) && Number.isFinite(s?.to_s) && s.to_s > s.from_s;
-  if (Array.isArray(m.segments)) marks.segments = ordered(m.segments.filter(whole).map((s) => ({ from_s: s.from_s, to_s: s.to_s, direction_deg: Number.isFinite(s.direction_deg) ? s.direction_deg : null })));
+  const valid = (s: Segment) => Number.isFinite(s?.from_s) && Number.isFinite(s?.to_s) && s.to_s > s.from_s;
+  if (Array.isArray(m.segments)) marks.segments = ordered(m.segments.filter(valid).map((s) => ({ from_s: s.from_s, to_s: s.to_s, direction_deg: Number.isFinite(s.direction_deg) ? s.direction_deg : null })));
   const r = m.roi;
   if (r && [r.x, r.y, r.width, r.height].every(Number.isFinite)) marks.roi = { x: r.x, y: r.y, width: r.width, height: r.height };
   if (Array.isArray(m.masks)) marks.masks = m.masks.filter((p) => Array.isArray(p) && polygonOf(p.map(String).join(' ')));

@@ -49,7 +49,7 @@ export function available(o: VideoOverlays): OverlayName[] {
   });
 }
 
-/** A file of results as overlays; null if it is of another kind. */
+/** A file of results as overlays; null if it has none. */
 export function readOverlays(text: string): VideoOverlays | null {
   return text.trimStart().startsWith('{') ? fromJson(text) : fromCsv(text);
 }
