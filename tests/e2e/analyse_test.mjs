@@ -190,6 +190,17 @@ await step('a job that fails states why, and can be started again', async () => 
   complaints.length = 0; // the browser logs requests that are refused
 });
 
+await step('messages about uploaded files name the file, not a temporary path', async () => {
+  const answer = (name, body) =>
+    page.evaluate(([n, b]) => fetch(`/api/upload?name=${n}`, { method: 'POST', headers: { 'Content-Type': 'application/octet-stream' }, body: b }).then((r) => r.json()), [name, body]);
+  for (const [name, body] of [['notes.txt', 'text'], ['empty.mp4', ''], ['a.png', '\x89PNG'], ['a.toml', 'seed =']]) {
+    const { where, what } = await answer(name, body);
+    assert.equal(where, name);
+    assert.doesNotMatch(`${where}: ${what}`, /\/tmp|upload-|body/);
+  }
+  complaints.length = 0; // the browser logs the refused requests
+});
+
 await step('coils: map, trap, tolerance, fit, library', async () => {
   await open('field-map');
   await pick(/^Coil system/, 'rigs/thesis-four-coils.toml');

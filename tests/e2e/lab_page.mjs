@@ -27,9 +27,11 @@ if (pictures) mkdirSync(pictures, { recursive: true });
 export const faba = (...words) => JSON.parse(execFileSync(program, [...words, '--json'], { cwd: workspace, encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }));
 
 /** The process of the server and its address; serveAgain() starts another server. */
-export let { lab, address } = await serve(program, workspace);
+/** Files of the page from a folder, for development: --www FOLDER. */
+const www = option('www') ? ['--www', option('www')] : [];
+export let { lab, address } = await serve(program, workspace, ...www);
 export async function serveAgain(...more) {
-  ({ lab, address } = await serve(program, workspace, ...more));
+  ({ lab, address } = await serve(program, workspace, ...www, ...more));
 }
 process.on('exit', () => lab.kill('SIGKILL')); // also after a failure
 export const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox'] });

@@ -18,13 +18,13 @@ namespace faba {
 struct Job {
   enum class State { waiting, running, done, failed, cancelled };
   int id = 0;
-  std::string title;                ///< "Record steer"
-  std::vector<std::string> words;   ///< command-line arguments
-  std::filesystem::path page, out;  ///< result page and output directory, relative to the workspace
-  std::string kind = {};            ///< name of its JobKind; empty: a recording
-  double work = 0;                  ///< see work_of()
-  double estimate_s = 0;            ///< run time that was estimated before the start; 0: unknown
-  bool estimate_measured = false;   ///< from jobs that were complete
+  std::string title = {};                     ///< "Record steer"
+  std::vector<std::string> words = {};        ///< command-line arguments
+  std::filesystem::path page = {}, out = {};  ///< result page and output directory, relative to the workspace
+  std::string kind = {};                      ///< name of its JobKind; empty: a recording
+  double work = 0;                            ///< see work_of()
+  double estimate_s = 0;                      ///< run time that was estimated before the start; 0: unknown
+  bool estimate_measured = false;             ///< from jobs that were complete
   State state = State::waiting;
   std::string doing = {};         ///< "simulating"
   std::uint64_t did = 0, of = 0;  ///< progress; of: total, 0 if unknown
