@@ -9,12 +9,13 @@ import * as runs from './runs';
 import * as jobs from './jobs';
 import * as analyse from './analyse';
 import * as form from './form';
+import * as lab from './lab';
 import * as workbench from './workbench';
 
 export { kProgram } from './program';
 
-const en = { ...app.en, ...bench.en, ...experiments.en, ...gallery.en, ...runs.en, ...jobs.en, ...analyse.en, ...form.en, ...workbench.en };
-const pt = { ...app.pt, ...bench.pt, ...experiments.pt, ...gallery.pt, ...runs.pt, ...jobs.pt, ...analyse.pt, ...form.pt, ...workbench.pt };
+const en = { ...app.en, ...bench.en, ...experiments.en, ...gallery.en, ...runs.en, ...jobs.en, ...analyse.en, ...form.en, ...lab.en, ...workbench.en };
+const pt = { ...app.pt, ...bench.pt, ...experiments.pt, ...gallery.pt, ...runs.pt, ...jobs.pt, ...analyse.pt, ...form.pt, ...lab.pt, ...workbench.pt };
 
 export type Word = keyof typeof en;
 export type Language = 'en' | 'pt';
