@@ -164,8 +164,8 @@ TEST_CASE("an invalid scenario does not stop the running one") {
 }
 
 TEST_CASE("a page that connects to a run receives its rows since the start, and the coils") {
+  Page first, second;
   LiveLab lab(1);
-  Page first;
   lab.watch(1, first.listener());
   answer([&](auto done) { lab.start(parse_toml(kScene, "test"), 9, done); });
   const Json run = first.news("run");
@@ -174,7 +174,6 @@ TEST_CASE("a page that connects to a run receives its rows since the start, and 
   first.frame(3);
   answer([&](auto done) { lab.pause(true, done); });
 
-  Page second;
   lab.watch(2, second.listener());
   const Json history = second.news("history");
   CHECK(history["run"] == run["run"]);

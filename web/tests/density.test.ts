@@ -19,8 +19,8 @@ describe('the density', () => {
       xy[2 * i + 1] = 2 * (((i / 64) | 0) % 32) + 1;
     }
     const d = densityOf({ xy, cells: n }, box, 10); // 10 cells in each 2 x 2 px: 250 in 10 x 10 px
-    expect(d.most).toBe(500);
-    expect(new Set(d.shades)).toEqual(new Set([kSteps / 2]));
+    expect(d.most).toBe(300);
+    expect(new Set(d.shades)).toEqual(new Set([Math.floor((kSteps * 250) / 300)]));
   });
   test('of quantised positions is that of pixels', () => {
     const parts = new Uint16Array([0, 0, 65535, 65535, 32768, 32768]), square = squareOf({ xy: parts }, box, { columns: 64, rows: 32, side: 2 });
@@ -31,7 +31,7 @@ describe('the density', () => {
   });
 });
 
-test.each([[0, 1], [1, 1], [1.1, 2], [2.5, 5], [5.1, 10], [999, 1000], [1000, 1000], [0.03, 0.05]])('the end of a scale for %d is %d', (v, end) => {
+test.each([[0, 1], [1, 1], [1.1, 1.5], [2.5, 3], [5.1, 6], [8.5, 10], [999, 1000], [1000, 1000], [0.035, 0.04]])('the end of a scale for %d is %d', (v, end) => {
   expect(niceCeiling(v)).toBeCloseTo(end, 12);
 });
 

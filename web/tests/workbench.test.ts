@@ -59,8 +59,8 @@ describe('keys', () => {
 describe('the header', () => {
   test('names each different model once, with its preset', () => {
     const swarm = [{ model: { type: 'rod', preset: 'first' } }, { model: 'dot' }, { model: { type: 'rod', preset: 'first' } }, { model: { type: 'rod', preset: '' } }];
-    expect(modelsOf({ swarm })).toEqual([{ type: 'rod', preset: 'first' }, { type: 'dot' }, { type: 'rod' }]);
-    expect(modelsOf({})).toEqual([]);
+    expect(modelsOf(sampleSchema, { swarm })).toEqual([{ type: 'rod', preset: 'first' }, { type: 'dot' }, { type: 'rod' }]);
+    expect(modelsOf(null, {})).toEqual([]);
   });
   test.each([
     [{ type: 'gamma' }, 'by_hand', 'gamma'],

@@ -7,7 +7,8 @@ import type { Rgb } from './cells';
 /** Swarms with more cells show their density unless the user switches it off: single cells overlap. */
 export const kLargeSwarm = 20000;
 const kSquares = 64; // along the longer side
-const kWithin = 0.995; // fraction of the occupied squares that are within the colour scale
+const kWithin = 0.98; // fraction of the occupied squares that are within the colour scale; cells pile up at walls
+const kNice = [1, 1.5, 2, 3, 4, 5, 6, 8, 10];
 
 export interface Density {
   columns: number;
@@ -22,11 +23,11 @@ export interface Density {
 }
 export const kSteps = 32;
 
-/** The next number of the form 1, 2 or 5 times a power of ten that is not smaller. */
+/** The next number that is a step of kNice times a power of ten and is not smaller. */
 export function niceCeiling(v: number): number {
   if (!(v > 0)) return 1;
   const power = 10 ** Math.floor(Math.log10(v) + 1e-12);
-  return [1, 2, 5, 10].map((k) => k * power).find((k) => k >= v * (1 - 1e-9))!;
+  return kNice.map((k) => k * power).find((k) => k >= v * (1 - 1e-9))!;
 }
 
 /** `unit`: side of the unit of area in image px, such as 1 mm. */

@@ -1,6 +1,6 @@
 // Models and controller of a scenario, as named in the header of the workbench.
 
-import type { Schema } from '../form/schema';
+import { presetOf, variant, type Schema } from '../form/schema';
 import type { Say } from '../i18n';
 import { defaultPart, handController, isOpenLoop, sectionOf, typeOf } from '../part_traits';
 import { lengthText, type LengthUnit } from '../units';
@@ -10,11 +10,13 @@ export interface ModelName {
   preset?: string;
 }
 
-/** The different models of the swarms. */
-export function modelsOf(scenario: any): ModelName[] {
+/** The different models of the swarms, with their presets. */
+export function modelsOf(schema: Schema | null, scenario: any): ModelName[] {
+  const section = schema?.properties?.swarm?.items?.properties?.model;
   const all: ModelName[] = (scenario.swarm ?? []).map(({ model }: any) => {
-    const preset = typeof model?.preset === 'string' && model.preset ? { preset: model.preset } : {};
-    return { type: typeOf(model) ?? '–', ...preset };
+    const type = typeOf(model) ?? defaultPart(section), table = typeof model === 'object' ? model : {};
+    const preset = type && section ? presetOf(variant(section, type), table) : '';
+    return { type: type ?? '–', ...(preset ? { preset } : {}) };
   });
   return all.filter((m, i) => all.findIndex((o) => o.type === m.type && o.preset === m.preset) === i);
 }
