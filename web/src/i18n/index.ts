@@ -8,6 +8,7 @@ import * as experiments from './experiments';
 import * as form from './form';
 import * as gallery from './gallery';
 import * as jobs from './jobs';
+import * as lab from './lab';
 import * as own from './own';
 import * as runs from './runs';
 import * as video from './video';
@@ -24,6 +25,7 @@ const en = {
   ...form.en,
   ...gallery.en,
   ...jobs.en,
+  ...lab.en,
   ...own.en,
   ...runs.en,
   ...video.en,
@@ -37,6 +39,7 @@ const pt = {
   ...form.pt,
   ...gallery.pt,
   ...jobs.pt,
+  ...lab.pt,
   ...own.pt,
   ...runs.pt,
   ...video.pt,
