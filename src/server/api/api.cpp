@@ -23,6 +23,7 @@ Api::Api(const Workspace& workspace, JobList& jobs, fs::path pictures, fs::path 
   });
   add_scenario_routes(routes_, lab_);
   add_gallery_routes(routes_, lab_);
+  add_result_routes(routes_, lab_);
   add_run_routes(routes_, lab_);
   add_experiment_routes(routes_, lab_);
   add_job_routes(routes_, lab_);

@@ -26,6 +26,7 @@ void add_bench_routes(Routes& routes, const LabServices& lab);
 void add_experiment_routes(Routes& routes, const LabServices& lab);
 void add_gallery_routes(Routes& routes, const LabServices& lab);
 void add_job_routes(Routes& routes, const LabServices& lab);
+void add_result_routes(Routes& routes, const LabServices& lab);
 void add_run_routes(Routes& routes, const LabServices& lab);
 void add_scenario_routes(Routes& routes, const LabServices& lab);
 void add_upload_routes(Routes& routes, const LabServices& lab);

@@ -5,6 +5,7 @@ import * as app from './app';
 import * as bench from './bench';
 import * as experiments from './experiments';
 import * as gallery from './gallery';
+import * as result from './result';
 import * as runs from './runs';
 import * as jobs from './jobs';
 import * as analyse from './analyse';
@@ -13,8 +14,8 @@ import * as workbench from './workbench';
 
 export { kProgram } from './program';
 
-const en = { ...app.en, ...bench.en, ...experiments.en, ...gallery.en, ...runs.en, ...jobs.en, ...analyse.en, ...form.en, ...workbench.en };
-const pt = { ...app.pt, ...bench.pt, ...experiments.pt, ...gallery.pt, ...runs.pt, ...jobs.pt, ...analyse.pt, ...form.pt, ...workbench.pt };
+const en = { ...app.en, ...bench.en, ...experiments.en, ...gallery.en, ...result.en, ...runs.en, ...jobs.en, ...analyse.en, ...form.en, ...workbench.en };
+const pt = { ...app.pt, ...bench.pt, ...experiments.pt, ...gallery.pt, ...result.pt, ...runs.pt, ...jobs.pt, ...analyse.pt, ...form.pt, ...workbench.pt };
 
 export type Word = keyof typeof en;
 export type Language = 'en' | 'pt';

@@ -10,7 +10,6 @@ export const en = {
   'job.left': '{t} left',
   'job.open': 'Open',
   'job.close': 'Close',
-  'job.tab': 'Open in a new tab',
 } as const;
 
 export const pt: Record<keyof typeof en, string> = {
@@ -25,5 +24,4 @@ export const pt: Record<keyof typeof en, string> = {
   'job.left': 'faltam {t}',
   'job.open': 'Abrir',
   'job.close': 'Fechar',
-  'job.tab': 'Abrir em nova aba',
 };
