@@ -78,7 +78,7 @@ fs::path scene_of(const LabServices& lab, const std::string& name) {
   return lab.workspace.existing(in_workspace(lab, scene));
 }
 
-Json about(const LabServices& lab, const std::string& name) {
+Json about_result(const LabServices& lab, const std::string& name) {
   const fs::path page = page_of(lab, name);
   const bool scene = fs::is_regular_file(page.parent_path() / kBestScene);
   return {{"files", files_of(lab, page)},
@@ -86,7 +86,7 @@ Json about(const LabServices& lab, const std::string& name) {
           {"video", scene ? video_of(lab, page) : ""}};
 }
 
-Json scene(const LabServices& lab, const std::string& name) {
+Json best_scenario(const LabServices& lab, const std::string& name) {
   const fs::path file = scene_of(lab, name);
   return {{"file", in_workspace(lab, file)},
           {"scenario", read_scenario(read_toml(file), lab.parts).resolved()}};
@@ -103,11 +103,17 @@ Json compare_with_video(const LabServices& lab, const Json& asked) {
   const std::string stem = in_workspace(lab, page.parent_path());
   std::string run, report;
   int number = 0;
+  const auto queued = [&](const Job& j) { return j.page == report && j.state <= Job::State::running; };
+  const auto taken = [&] {
+    const std::vector<Job> jobs = lab.jobs.jobs();
+    return fs::exists(lab.workspace.root() / run) || fs::exists(lab.workspace.root() / report) ||
+           std::any_of(jobs.begin(), jobs.end(), queued);
+  };
   do {
     ++number;
     run = fmt::format("{}-best-{}", stem, number);
     report = fmt::format("{}-compared-{}.html", stem, number);
-  } while (fs::exists(lab.workspace.root() / run) || fs::exists(lab.workspace.root() / report));
+  } while (taken());
   lab.jobs.add("run: " + run, {"run", "./" + scene, "--seed", "1", "--out", run, "--json"},
                run + "/report.html", run);
   const int id = lab.jobs.add("compare: " + fs::path(video).filename().string(),
@@ -125,9 +131,9 @@ std::string page_in(const WebRequest& r) {
 
 void add_result_routes(Routes& routes, const LabServices& lab) {
   routes.add("GET", "/api/results",
-             [&lab](const auto& r, const auto&) { return json_answer(about(lab, page_in(r))); });
+             [&lab](const auto& r, const auto&) { return json_answer(about_result(lab, page_in(r))); });
   routes.add("GET", "/api/results/scene",
-             [&lab](const auto& r, const auto&) { return json_answer(scene(lab, page_in(r))); });
+             [&lab](const auto& r, const auto&) { return json_answer(best_scenario(lab, page_in(r))); });
   routes.add("POST", "/api/results/compare",
              [&lab](const auto& r, const auto&) { return json_answer(compare_with_video(lab, body_of(r))); });
 }

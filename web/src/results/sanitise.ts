@@ -1,12 +1,12 @@
 // A report as a part of the page. The program writes reports, but a file can be replaced: nothing of a parsed report is
-// inserted. A new tree is built from allowed elements, attributes and addresses; all else is dropped with its content. The
-// content security policy of the page, which forbids inline scripts, inline styles and other origins, is a second barrier.
+// inserted. Reports are well-formed XML and are parsed as XML, in which no element has a meaning. From the parsed tree a new
+// one is built with allowed elements, attributes and addresses; all else is dropped with its content. The content security
+// policy of the page, which forbids inline scripts, inline styles and other origins, is a second barrier.
 
 /** What is read of a parsed document. */
 export interface Source {
   nodeType: number;
   localName?: string;
-  namespaceURI?: string | null;
   nodeValue?: string | null;
   attributes?: ArrayLike<{ name: string; value: string }>;
   childNodes: ArrayLike<Source>;
@@ -53,20 +53,20 @@ function allowedAttribute(tag: string, svg: boolean, name: string, value: string
   return address === null ? null : [name, address];
 }
 
-/** The allowed content of a node. `folder`: that of the report, "runs/study". */
-export function sanitised(node: Source, folder: string): (Clean | string)[] {
+/** The allowed content of a node. `folder`: that of the report, "runs/study"; `inDrawing`: the node is in an <svg>. */
+export function sanitised(node: Source, folder: string, inDrawing = false): (Clean | string)[] {
   const out: (Clean | string)[] = [];
   for (const child of Array.from(node.childNodes)) {
     if (child.nodeType === 3) out.push(child.nodeValue ?? '');
     if (child.nodeType !== 1) continue;
-    const svg = child.namespaceURI === kSvg, tag = child.localName ?? '';
-    // A report has its content in <main>.
-    if (!svg && tag === 'main') out.push(...sanitised(child, folder));
+    const tag = child.localName ?? '', svg = inDrawing || tag === 'svg';
+    // The content of a page is in these.
+    if (!svg && /^(html|body|main)$/.test(tag)) out.push(...sanitised(child, folder));
     if (!(svg ? kSvgTags : kHtmlTags).has(tag)) continue;
     const attributes = Array.from(child.attributes ?? [])
       .map((a) => allowedAttribute(tag, svg, a.name, a.value, folder))
       .filter((a) => a !== null);
-    out.push({ tag: svg ? tag : (kTagInPage[tag] ?? tag), svg, attributes, children: sanitised(child, folder) });
+    out.push({ tag: svg ? tag : (kTagInPage[tag] ?? tag), svg, attributes, children: sanitised(child, folder, svg) });
   }
   return out;
 }
@@ -87,8 +87,8 @@ export function built(content: (Clean | string)[], document: Document): Document
   return fragment;
 }
 
-/** A report as elements of the page. */
-export function reportElements(html: string, folder: string): DocumentFragment {
-  const parsed = new DOMParser().parseFromString(html, 'text/html');
-  return built(sanitised(parsed.body as unknown as Source, folder), document);
+/** A report as elements of the page; null if it is not well-formed XML. */
+export function reportElements(xml: string, folder: string): DocumentFragment | null {
+  const parsed = new DOMParser().parseFromString(xml, 'application/xml');
+  return parsed.querySelector('parsererror') ? null : built(sanitised(parsed as unknown as Source, folder), document);
 }
