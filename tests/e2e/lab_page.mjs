@@ -1,4 +1,5 @@
-// A live lab in a temporary folder, and a browser with its page, for lab_test.mjs.
+// A live lab in a temporary folder, and a browser with its page, for lab_test.mjs and gallery_test.mjs. With --www FOLDER the page is
+// read from a folder, for development.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -8,7 +9,7 @@ import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { serve } from '../../bench/lab_client.mjs';
 
-const option = (name) => {
+export const option = (name) => {
   const i = process.argv.indexOf(`--${name}`);
   return i < 0 ? null : resolve(process.argv[i + 1]);
 };
@@ -27,9 +28,10 @@ if (pictures) mkdirSync(pictures, { recursive: true });
 export const faba = (...words) => JSON.parse(execFileSync(program, [...words, '--json'], { cwd: workspace, encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }));
 
 /** The process of the server and its address; serveAgain() starts another server. */
-export let { lab, address } = await serve(program, workspace);
+const www = option('www') ? ['--www', option('www')] : [];
+export let { lab, address } = await serve(program, workspace, ...www);
 export async function serveAgain(...more) {
-  ({ lab, address } = await serve(program, workspace, ...more));
+  ({ lab, address } = await serve(program, workspace, ...www, ...more));
 }
 process.on('exit', () => lab.kill('SIGKILL')); // also after a failure
 export const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox'] });

@@ -1,5 +1,4 @@
 export const en = {
-  'tab.result': 'Result',
   'result.none': 'No result is selected. Open one from the list of jobs on the page Analyse.',
   'result.waiting': 'The result is shown here when the job is done.',
   'result.unreadable': 'The report is not well-formed XML and cannot be shown inside the lab. Open it in a new tab.',
@@ -23,7 +22,6 @@ export const en = {
 } as const;
 
 export const pt: Record<keyof typeof en, string> = {
-  'tab.result': 'Resultado',
   'result.none': 'Nenhum resultado está selecionado. Abra um na lista de tarefas da página Análise.',
   'result.waiting': 'O resultado aparece aqui quando a tarefa for concluída.',
   'result.unreadable': 'O relatório não é XML bem formado e não pode ser mostrado no laboratório. Abra-o em uma nova aba.',
