@@ -34,6 +34,7 @@ void add_folder_routes(Routes& routes, const LabServices& lab);
 void add_gallery_routes(Routes& routes, const LabServices& lab);
 void add_job_routes(Routes& routes, const LabServices& lab);
 void add_input_routes(Routes& routes, const LabServices& lab);
+void add_result_routes(Routes& routes, const LabServices& lab);
 void add_run_routes(Routes& routes, const LabServices& lab);
 void add_scenario_routes(Routes& routes, const LabServices& lab);
 void add_trash_routes(Routes& routes, const LabServices& lab);

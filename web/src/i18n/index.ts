@@ -10,6 +10,7 @@ import * as gallery from './gallery';
 import * as jobs from './jobs';
 import * as lab from './lab';
 import * as own from './own';
+import * as result from './result';
 import * as runs from './runs';
 import * as video from './video';
 import * as workbench from './workbench';
@@ -27,6 +28,7 @@ const en = {
   ...jobs.en,
   ...lab.en,
   ...own.en,
+  ...result.en,
   ...runs.en,
   ...video.en,
   ...workbench.en,
@@ -41,6 +43,7 @@ const pt = {
   ...jobs.pt,
   ...lab.pt,
   ...own.pt,
+  ...result.pt,
   ...runs.pt,
   ...video.pt,
   ...workbench.pt,
