@@ -26,6 +26,7 @@ Api::Api(const Workspace& workspace, JobList& jobs, fs::path pictures, fs::path 
   add_run_routes(routes_, lab_);
   add_experiment_routes(routes_, lab_);
   add_job_routes(routes_, lab_);
+  add_track_routes(routes_, lab_);
   add_upload_routes(routes_, lab_);
   add_bench_routes(routes_, lab_);
 }

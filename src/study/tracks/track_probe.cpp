@@ -1,34 +1,31 @@
 #include "study/tracks/track_probe.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <utility>
 
 #include "core/error.h"
 #include "study/tracks/spot_sums.h"
 #include "study/tracks/track_preview.h"
 #include "study/tracks/track_warnings.h"
-#include "vision/files/frame_encoder.h"
 
 namespace faba {
 namespace {
-
-constexpr std::size_t kMostRecentBytes = 128u << 20;
 
 bool same_spots(const TrackOptions& a, const TrackOptions& b) {
   return a.size_px == b.size_px && a.polarity == b.polarity && a.background == b.background &&
          a.threshold_sd == b.threshold_sd;
 }
 
+std::vector<Spot> spots_of(GrayF picture, const Detector& detector, const TrackSurvey& survey) {
+  make_finite(picture);
+  return spots_in(picture, detector, survey);
+}
+
 }  // namespace
 
 TrackProbe::TrackProbe(TrackOptions options, RunVideo source,
                        const std::function<bool(std::int64_t, std::int64_t)>& progress)
-    : options_(std::move(options)), source_(std::move(source)) {
+    : options_(std::move(options)), source_(std::move(source)), frames_(source_.file, options_.part.fps) {
   VideoReader reader(source_.file, options_.part.fps, 1);
-  stated_ = reader.frames_in_header();
-  fps_ = reader.fps();
   TrackSurveyor surveyor(options_);
   sample_frames(reader, options_, source_.file, surveyor,
                 [&](double, const GrayF&, std::int64_t done, std::int64_t total) {
@@ -36,7 +33,7 @@ TrackProbe::TrackProbe(TrackOptions options, RunVideo source,
                     throw Error(Errc::interrupted, options_.video.string(), "stopped");
                 });
   Pool pool(options_.threads);
-  frames_ = surveyor.surveyed(reader.bits(), reader.fps() > 0, pool);
+  surveyed_ = surveyor.surveyed(reader.bits(), reader.fps() > 0, pool);
 }
 
 const TrackProbe::Prepared& TrackProbe::prepared(const TrackOptions& o) {
@@ -48,7 +45,7 @@ const TrackProbe::Prepared& TrackProbe::prepared(const TrackOptions& o) {
   p.options.background = o.background;
   p.options.threshold_sd = o.threshold_sd;
   Pool pool(options_.threads);
-  p.survey = survey_of(p.options, frames_, pool);
+  p.survey = survey_of(p.options, surveyed_, pool);
   const std::optional<DropMask> drop = drop_of(p.options, p.survey);
   p.detector = std::make_unique<Detector>(p.survey.background, detector_options(p.options, p.survey, drop));
   p.detection = detection_of(p.options, p.survey, *p.detector, drop);
@@ -56,56 +53,14 @@ const TrackProbe::Prepared& TrackProbe::prepared(const TrackOptions& o) {
   return *prepared_;
 }
 
-// After it the reader reads the frame `index` next, or is at the end. Frames are skipped by their time if the
-// video has a constant frame rate, otherwise one by one.
-void TrackProbe::go_to(std::int64_t index) {
-  const auto open = [&] {
-    reader_ = std::make_unique<VideoReader>(source_.file, options_.part.fps, 1);
-    next_ = 0;
-  };
-  if (!reader_ || next_ > index) open();
-  if (fps_ > 0 && index > next_) next_ += reader_->skip_to((double(index) - 0.5) / fps_);
-  if (next_ > index) open();
-  for (double t_s = 0; next_ < index && reader_->next(t_s);) ++next_;
-}
-
-std::optional<TrackProbe::Frame> TrackProbe::find_frame(std::int64_t index) {
-  const auto known =
-      std::find_if(recent_.begin(), recent_.end(), [&](const Frame& f) { return f.index == index; });
-  if (known != recent_.end()) return *known;
-  go_to(index);
-  Frame f;
-  f.index = index;
-  if (next_ != index || !reader_->next(f.t_s)) {
-    reader_.reset();
-    return {};
-  }
-  ++next_;
-  auto picture = std::make_shared<GrayF>();
-  reader_->picture(*picture);
-  make_finite(*picture);
-  const std::size_t bytes = std::max<std::size_t>(1, picture->px.size() * sizeof(float));
-  f.picture = std::move(picture);
-  while (!recent_.empty() && (recent_.size() + 1) * bytes > kMostRecentBytes) recent_.pop_front();
-  recent_.push_back(f);
-  return f;
-}
-
-TrackProbe::Frame TrackProbe::frame(std::int64_t index) {
-  if (index >= 0)
-    if (auto f = find_frame(index)) return *std::move(f);
-  throw Error(Errc::input, options_.video.filename().string(),
-              fmt::format("has no frame {}; the first frame is 0", index));
-}
-
 ProbedFrame TrackProbe::detect(const TrackOptions& o, std::int64_t index) {
   const std::lock_guard lock(mutex_);
-  const Frame f = frame(index);
+  const VideoFrame f = frames_.frame(index);
   const Prepared& p = prepared(o);
   ProbedFrame out;
   out.index = index;
   out.t_s = f.t_s;
-  out.spots = spots_in(*f.picture, *p.detector, p.survey);
+  out.spots = spots_of(*f.picture, *p.detector, p.survey);
   out.detection = p.detection;
   SpotSums sums;
   sums.take(out.spots);
@@ -118,9 +73,9 @@ ProbedFrame TrackProbe::detect(const TrackOptions& o, std::int64_t index) {
 
 ProbedLinks TrackProbe::link(const TrackOptions& o, std::int64_t first, int count) {
   const std::lock_guard lock(mutex_);
-  std::vector<Frame> frames{frame(first)};
+  std::vector<VideoFrame> frames{frames_.frame(first)};
   while (int(frames.size()) < count) {
-    auto f = find_frame(first + std::int64_t(frames.size()));
+    auto f = frames_.find(first + std::int64_t(frames.size()));
     if (!f) break;
     frames.push_back(*std::move(f));
   }
@@ -128,7 +83,7 @@ ProbedLinks TrackProbe::link(const TrackOptions& o, std::int64_t first, int coun
   std::vector<std::vector<Spot>> spots(frames.size());
   Pool pool(options_.threads);
   pool.run_uneven(frames.size(),
-                  [&](std::size_t i) { spots[i] = spots_in(*frames[i].picture, *p.detector, p.survey); });
+                  [&](std::size_t i) { spots[i] = spots_of(*frames[i].picture, *p.detector, p.survey); });
   Tracker tracker(o.tracker);
   double last_s = -1;
   for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -143,22 +98,6 @@ ProbedLinks TrackProbe::link(const TrackOptions& o, std::int64_t first, int coun
           tracker.search_radius_px(),
           tracker.motion(),
           tracker.crowded()};
-}
-
-std::vector<std::uint8_t> TrackProbe::png(std::int64_t index) {
-  std::shared_ptr<const GrayF> picture;
-  {
-    const std::lock_guard lock(mutex_);
-    picture = frame(index).picture;
-  }
-  const float black = frames_.survey.black, white = std::max(black + 1e-6f, frames_.survey.white);
-  Gray8 shown(picture->width, picture->height);
-  std::transform(picture->px.begin(), picture->px.end(), shown.px.begin(), [&](float v) {
-    return std::uint8_t(std::clamp(255 * (v - black) / (white - black), 0.0f, 255.0f));
-  });
-  FrameEncoder encoder(FrameEncoder::Kind::png_grey, shown.width, shown.height);
-  const auto bytes = encoder.encode(shown);
-  return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace faba

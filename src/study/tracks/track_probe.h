@@ -1,6 +1,5 @@
 #pragma once
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -8,9 +7,9 @@
 #include <vector>
 
 #include "study/data/run_video.h"
+#include "study/data/video_frames.h"
 #include "study/tracks/track_result.h"
 #include "study/tracks/track_survey.h"
-#include "vision/files/video_reader.h"
 
 namespace faba {
 
@@ -34,8 +33,8 @@ struct ProbedLinks {
 };
 
 /// Detects spots in single frames of a video with the result of tracking the complete video, for options that
-/// change often: the frames from which background and noise are computed are read once (see sample_frames()),
-/// and recent frames stay in memory (128 MB). Thread-safe.
+/// change often: the frames from which background and noise are computed are read once (see sample_frames()).
+/// Thread-safe.
 class TrackProbe {
  public:
   /// Reads the sampled frames. `options`: its video, part, region and drop are those of all later calls.
@@ -43,10 +42,7 @@ class TrackProbe {
   TrackProbe(TrackOptions options, RunVideo source,
              const std::function<bool(std::int64_t done, std::int64_t total)>& progress);
 
-  int width() const { return frames_.survey.first.width; }
-  int height() const { return frames_.survey.first.height; }
-  std::int64_t stated_frames() const { return stated_; }  ///< according to the file; 0: unknown
-  double fps() const { return fps_; }                     ///< 0: unknown
+  const VideoFrames& frames() const { return frames_; }
   const VideoScale& scale() const { return source_.scale; }
 
   /// Size, threshold, polarity, background and tracker are taken from `o`. Throws Error(Errc::input) if the
@@ -54,15 +50,8 @@ class TrackProbe {
   ProbedFrame detect(const TrackOptions& o, std::int64_t index);
   /// Tracks in at most `count` frames from the frame `first`.
   ProbedLinks link(const TrackOptions& o, std::int64_t first, int count);
-  /// A frame as a PNG with the contrast of the first frame.
-  std::vector<std::uint8_t> png(std::int64_t index);
 
  private:
-  struct Frame {
-    std::int64_t index = 0;
-    double t_s = 0;
-    std::shared_ptr<const GrayF> picture;
-  };
   /// What follows from the options for spots.
   struct Prepared {
     TrackOptions options;
@@ -72,20 +61,13 @@ class TrackProbe {
   };
 
   const Prepared& prepared(const TrackOptions& o);
-  std::optional<Frame> find_frame(std::int64_t index);
-  Frame frame(std::int64_t index);
-  void go_to(std::int64_t index);
 
   TrackOptions options_;
   RunVideo source_;
   std::mutex mutex_;
-  SurveyedFrames frames_;
-  std::int64_t stated_ = 0;
-  double fps_ = 0;
+  VideoFrames frames_;
+  SurveyedFrames surveyed_;
   std::optional<Prepared> prepared_;
-  std::deque<Frame> recent_;
-  std::unique_ptr<VideoReader> reader_;
-  std::int64_t next_ = 0;  ///< index of the frame that the reader reads next
 };
 
 }  // namespace faba

@@ -6,6 +6,7 @@ import * as bench from './bench';
 import * as experiments from './experiments';
 import * as gallery from './gallery';
 import * as runs from './runs';
+import * as tracks from './tracks';
 import * as jobs from './jobs';
 import * as analyse from './analyse';
 import * as form from './form';
@@ -13,8 +14,8 @@ import * as workbench from './workbench';
 
 export { kProgram } from './program';
 
-const en = { ...app.en, ...bench.en, ...experiments.en, ...gallery.en, ...runs.en, ...jobs.en, ...analyse.en, ...form.en, ...workbench.en };
-const pt = { ...app.pt, ...bench.pt, ...experiments.pt, ...gallery.pt, ...runs.pt, ...jobs.pt, ...analyse.pt, ...form.pt, ...workbench.pt };
+const en = { ...app.en, ...bench.en, ...experiments.en, ...gallery.en, ...runs.en, ...tracks.en, ...jobs.en, ...analyse.en, ...form.en, ...workbench.en };
+const pt = { ...app.pt, ...bench.pt, ...experiments.pt, ...gallery.pt, ...runs.pt, ...tracks.pt, ...jobs.pt, ...analyse.pt, ...form.pt, ...workbench.pt };
 
 export type Word = keyof typeof en;
 export type Language = 'en' | 'pt';
