@@ -88,7 +88,8 @@ std::string provenance_comment(const TrackFolder& folder, const EditedFolder& e)
   const auto limit = [](const std::optional<double>& v) { return v ? fmt::format("{}", *v) : "any"; };
   for (const TrackCut& c : e.edits.cuts) {
     const TrackFeatureName& f = kTrackFeatureNames[std::size_t(c.feature)];
-    out += fmt::format("# cut: {} from {} to {} {}\n", f.name, limit(c.min), limit(c.max), f.unit);
+    out += fmt::format("# cut: {} from {} to {}{}{}\n", f.name, limit(c.min), limit(c.max),
+                       f.unit.empty() ? "" : " ", f.unit);
   }
   for (const TrackEdit& d : e.edits.edits) {
     out += fmt::format("# edit: {} track {}", kEditWords[std::size_t(d.kind)], d.track);
