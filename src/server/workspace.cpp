@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::size_t kLongest = 1000;
-constexpr std::size_t kMostFiles = 500;
+constexpr std::size_t kMostFiles = 500, kMostRuns = 5000;
 constexpr std::array<const char*, 6> kVideos = {".mp4", ".avi", ".mkv", ".mov", ".webm", ".tif"};
 
 Error out_of_reach(std::string_view name) {
@@ -28,6 +28,14 @@ std::vector<fs::path> sorted_files(const fs::path& folder, std::string_view exte
       found.push_back(e.path());
   std::sort(found.begin(), found.end());
   return found;
+}
+
+// Whether an absolute path without links is in a folder, and neither the file nor a folder on the way is hidden.
+bool lies_below(const fs::path& folder, const fs::path& file) {
+  if (std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first != folder.end()) return false;
+  const fs::path below = file.lexically_relative(folder);
+  return std::none_of(below.begin(), below.end(),
+                      [](const fs::path& part) { return part != "." && part.string().starts_with('.'); });
 }
 
 bool holds_run(const fs::path& dir) {
@@ -55,8 +63,14 @@ Json rig_card(const fs::path& file) {
 
 }  // namespace
 
-Workspace::Workspace(const fs::path& root, const fs::path& scenes) : root_(fs::canonical(root)) {
+Workspace::Workspace(const fs::path& root, const fs::path& scenes, const std::vector<fs::path>& allowed)
+    : root_(fs::canonical(root)) {
   gallery_ = fs::is_directory(root_ / "scenes") ? root_ / "scenes" : scenes;
+  for (const fs::path& folder : allowed) {
+    std::error_code ec;
+    if (!fs::is_directory(folder, ec)) throw Error(Errc::usage, folder.string(), "is not a folder");
+    allowed_.push_back(fs::canonical(folder));
+  }
 }
 
 fs::path Workspace::inside(std::string_view name) const {
@@ -69,14 +83,30 @@ fs::path Workspace::inside(std::string_view name) const {
   // Links are resolved before the check.
   std::error_code ec;
   fs::path real = fs::weakly_canonical(root_ / asked, ec);
-  const auto [at, _] = std::mismatch(root_.begin(), root_.end(), real.begin(), real.end());
-  if (ec || at != root_.end()) throw out_of_reach(name);
+  if (ec || !lies_below(root_, real)) throw out_of_reach(name);
   return real;
 }
 
-fs::path Workspace::existing(std::string_view name) const {
-  fs::path path = inside(name);
+bool Workspace::may_read(const fs::path& file) const {
   std::error_code ec;
+  const fs::path real = fs::weakly_canonical(file, ec);
+  if (ec) return false;
+  return lies_below(root_, real) ||
+         std::any_of(allowed_.begin(), allowed_.end(),
+                     [&](const fs::path& folder) { return lies_below(folder, real); });
+}
+
+std::string Workspace::name_of(const fs::path& file) const {
+  std::error_code ec;
+  const fs::path real = fs::weakly_canonical(file, ec);
+  return lies_below(root_, real) ? real.lexically_relative(root_).string() : real.string();
+}
+
+fs::path Workspace::existing(std::string_view name) const {
+  std::error_code ec;
+  const bool absolute = name.starts_with('/') && name.size() <= kLongest && name.find('\0') == name.npos;
+  if (absolute && !may_read(name)) throw out_of_reach(name);
+  fs::path path = absolute ? fs::weakly_canonical(name, ec) : inside(name);
   if (!fs::is_regular_file(path, ec) && !fs::is_directory(path, ec))
     throw Error(Errc::input, std::string(name), "file not found in the folder in which the lab was started");
   return path;
@@ -96,10 +126,7 @@ std::string Workspace::in_page(const std::string& where) const {
 
 void Workspace::check_files(const Json& scenario) const {
   constexpr std::array<std::string_view, 2> kNaming = {"file", "background"};  // keys with a file name
-  const auto lies_below = [](const fs::path& folder, const fs::path& file) {
-    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
-  };
-  const fs::path project = gallery_.parent_path();  // scenes refer to ../rigs
+  const fs::path project = gallery_.parent_path();                             // scenes refer to ../rigs
   for (const auto& [key, value] : scenario.items()) {
     if (value.is_structured()) check_files(value);
     if (!value.is_string() || std::find(kNaming.begin(), kNaming.end(), key) == kNaming.end()) continue;
@@ -136,7 +163,7 @@ std::vector<std::string> Workspace::runs() const {
   std::sort(found.rbegin(), found.rend());
   std::vector<std::string> names;
   for (auto& [_, name] : found)
-    if (names.size() < kMostFiles) names.push_back(std::move(name));
+    if (names.size() < kMostRuns) names.push_back(std::move(name));
   return names;
 }
 
@@ -167,6 +194,15 @@ Json Workspace::files() const {
   }
   for (const fs::path& f : sorted_files(root_ / "rigs", ".toml")) rigs.push_back(rig_card(f));
   return {{"videos", videos}, {"studies", studies}, {"rigs", rigs}};
+}
+
+bool has_video_name(const fs::path& file) {
+  constexpr std::array<std::string_view, 5> kPictures = {".tiff", ".png", ".jpg", ".pgm", ".bmp"};
+  std::string extension = file.extension();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  return std::ranges::find(kVideos, extension) != kVideos.end() ||
+         std::ranges::find(kPictures, extension) != kPictures.end();
 }
 
 }  // namespace faba

@@ -115,3 +115,28 @@ TEST_CASE("without scenes in the workspace, the gallery of the program is used")
   CHECK(Workspace(folder.path(), program.path()).scene("s") == program.path() / "s.toml");
   CHECK(Workspace(folder.path(), folder.path() / "none").scenes().empty());
 }
+
+TEST_CASE("S6: allowed folders can be read, and nothing beside them") {
+  test::TemporaryFolder folder("allowed");
+  const fs::path root = folder.path() / "work", data = folder.path() / ".data";
+  for (const fs::path& dir : {root, data / "sub", folder.path() / "other"}) fs::create_directories(dir);
+  for (const fs::path& file :
+       {data / "a.avi", data / "sub/b.avi", data / ".hidden.avi", folder.path() / "other/c.avi"})
+    write_file(file, "x");
+  fs::create_symlink(folder.path() / "other/c.avi", data / "link.avi");
+  const Workspace w(root, {}, {data});
+  CHECK(w.existing((data / "sub/b.avi").string()) == fs::canonical(data / "sub/b.avi"));
+  CHECK(w.name_of(data / "a.avi") == fs::canonical(data / "a.avi").string());
+  CHECK(w.name_of(root / "runs/x") == "runs/x");
+  CHECK(w.may_read(root));
+  for (const fs::path& bad : {data / ".hidden.avi", data / "link.avi", folder.path() / "other/c.avi",
+                              data / "../other/c.avi", fs::path("/etc/passwd"), folder.path()}) {
+    INFO(bad);
+    CHECK(!w.may_read(bad));
+    CHECK_THROWS_AS(w.existing(bad.string()), const Error&);
+  }
+  // Nothing is written there.
+  CHECK_THROWS_AS(w.inside((data / "new.toml").string()), const Error&);
+  CHECK_THROWS_WITH_AS(Workspace(root, {}, {folder.path() / "missing"}), doctest::Contains("is not a folder"),
+                       const Error&);
+}

@@ -53,6 +53,8 @@ export class Lab {
   /** Present scenario, resolved. */
   scenario = $state.raw<Record<string, any>>({});
   jobs = $state.raw<Job[]>([]);
+  /** The newest change of an experiment by any page, and the number of changes. */
+  experimentNews = $state.raw({ name: '', count: 0 });
   /** JSON Schema of a scenario; null until the program has sent it. */
   schema = $state.raw<Schema | null>(null);
   trouble = $state.raw<Trouble | null>(null);
@@ -122,6 +124,9 @@ export class Lab {
         this.frame = null;
         break;
       }
+      case 'experiment':
+        this.experimentNews = { name: n.name, count: this.experimentNews.count + 1 };
+        break;
       case 'parts':
         this.scenario = n.scenario;
         this.events = n.events;

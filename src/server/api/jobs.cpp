@@ -27,7 +27,13 @@ Json start_job(const LabServices& lab, const Json& asked) {
   fs::create_directories(lab.workspace.root() / "runs");
   std::vector<std::string> words;
   std::string out;
-  if (verb == "activity") {
+  if (verb == "activity" && asked.contains("experiment")) {
+    const std::string name = text_of(asked, "experiment");
+    const fs::path folder = fs::relative(lab.experiments.folder(name), lab.workspace.root());
+    fs::create_directories(lab.workspace.root() / folder / "results");
+    out = folder / fmt::format("results/activity-{}.html", stamp);
+    words = {"activity", "./" + folder.string(), "--report", out, "--json"};
+  } else if (verb == "activity") {
     out = page("activity");
     words = {"activity", file("video"), "--report", out, "--json"};
     if (const std::string d = asked.value("direction", ""); !d.empty()) {

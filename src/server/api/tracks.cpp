@@ -47,29 +47,25 @@ Json probe(TrackServices& t, const Json& asked, bool link) {
   Json j = link ? links_json(
                       s.probe->link(request.options, frame, int(integer_of(asked, "frames", 2, kMostLinked))))
                 : probe_json(s.probe->detect(request.options, frame));
-  const VideoFrames& video = s.probe->frames();
+  const IndexedFrames& video = s.probe->frames();
   const auto& um = s.probe->scale().um_per_px;
   j["ready"] = true;
   j["video"] = {{"width", video.width()},
                 {"height", video.height()},
                 {"frames", video.stated()},
                 {"fps", video.fps()},
+                {"black", s.probe->black()},
+                {"white", s.probe->white()},
                 {"um_per_px", um ? Json(*um) : Json(nullptr)}};
   return j;
-}
-
-WebResponse frame_png(TrackServices& t, const WebRequest& r) {
-  const fs::path video = t.lab.workspace.existing(query_of(r, "file"));
-  const std::vector<std::uint8_t> png =
-      t.probes.frames(video, 0)->png(std::strtoll(query_of(r, "frame").c_str(), nullptr, 10));
-  return {.type = "image/png", .body = std::string(png.begin(), png.end()), .keep = true};
 }
 
 Json start(TrackServices& t, const Json& asked) {
   const TrackRequest request = track_request(t.lab.workspace, asked);
   const std::string folder = t.results.new_folder(request.file);
   // A leading dash would be an option.
-  std::vector<std::string> words = {"track", "./" + request.file, "--result", folder, "--json"};
+  const std::string video = request.file.starts_with('/') ? request.file : "./" + request.file;
+  std::vector<std::string> words = {"track", video, "--result", folder, "--json"};
   words.insert(words.begin() + 2, request.words.begin(), request.words.end());
   const std::string title = "track: " + fs::path(request.file).filename().string();
   return {{"id", t.lab.jobs.add(title, words, folder + "/" + track_files::kReport, folder)},
@@ -99,7 +95,6 @@ void add_track_routes(Routes& routes, const LabServices& lab) {
              [t](const auto& r, const auto&) { return json_answer(probe(*t, body_of(r), false)); });
   routes.add("POST", "/api/tracks/link",
              [t](const auto& r, const auto&) { return json_answer(probe(*t, body_of(r), true)); });
-  routes.add("GET", "/api/tracks/frame.png", [t](const auto& r, const auto&) { return frame_png(*t, r); });
   routes.add("GET", "/api/tracks/result",
              [t](const auto& r, const auto&) { return json_answer(t->results.read(query_of(r, "folder"))); });
   routes.add("GET", "/api/tracks/points", [t](const auto& r, const auto&) {

@@ -99,15 +99,4 @@ ProbeList::State ProbeList::get(const TrackOptions& options) {
   return state;
 }
 
-std::shared_ptr<VideoFrames> ProbeList::frames(const fs::path& video, double fps) {
-  const fs::path file = run_video(video).file;
-  const std::string key = key_of(file, fps);
-  const std::lock_guard lock(mutex_);
-  if (!to_front(shown_, key, [](const Shown& s) { return s.key; })) {
-    shown_.push_front({key, std::make_shared<VideoFrames>(file, fps)});
-    if (shown_.size() > kKept) shown_.pop_back();
-  }
-  return shown_.front().frames;
-}
-
 }  // namespace faba

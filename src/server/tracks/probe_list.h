@@ -27,8 +27,6 @@ class ProbeList {
   /// Starts the survey if the video, its part or region is new, and waits a short time for its end. Throws
   /// its error.
   State get(const TrackOptions& options);
-  /// The frames of a video for display.
-  std::shared_ptr<VideoFrames> frames(const std::filesystem::path& video, double fps);
 
  private:
   struct Survey {
@@ -37,16 +35,11 @@ class ProbeList {
     std::exception_ptr error;
     std::jthread thread;
   };
-  struct Shown {
-    std::string key;
-    std::shared_ptr<VideoFrames> frames;
-  };
   std::shared_ptr<Survey> begin(const std::string& key, const TrackOptions& options);
 
   std::mutex mutex_;
   std::condition_variable changed_;
   std::list<std::shared_ptr<Survey>> surveys_;  ///< the most recently used one first
-  std::list<Shown> shown_;                      ///< the same
 };
 
 }  // namespace faba

@@ -132,15 +132,10 @@ Json TrackResults::read(const std::string& folder) {
   j["folder"] = folder;
   j["summary"] = r->folder.summary;
   j["video"] = nullptr;
-  try {
-    // The job was given a path relative to the workspace; one from the terminal may be absolute.
-    const fs::path video = workspace_.root() / r->folder.summary.value("video", "");
-    const std::string name = fs::weakly_canonical(video).lexically_relative(workspace_.root()).string();
-    (void)workspace_.existing(name);
-    j["video"] = name;
-  } catch (const Error&) {
-    // moved, or outside of the workspace: the tracks are shown without pictures
-  }
+  // The job was given a path relative to the workspace. Without its video, tracks are shown without pictures.
+  const fs::path video = workspace_.root() / r->folder.summary.value("video", "");
+  std::error_code ec;
+  if (workspace_.may_read(video) && fs::exists(video, ec)) j["video"] = workspace_.name_of(video);
   return j;
 }
 

@@ -55,7 +55,7 @@ const TrackProbe::Prepared& TrackProbe::prepared(const TrackOptions& o) {
 
 ProbedFrame TrackProbe::detect(const TrackOptions& o, std::int64_t index) {
   const std::lock_guard lock(mutex_);
-  const VideoFrame f = frames_.frame(index);
+  const IndexedFrame f = frames_.frame(index);
   const Prepared& p = prepared(o);
   ProbedFrame out;
   out.index = index;
@@ -73,7 +73,7 @@ ProbedFrame TrackProbe::detect(const TrackOptions& o, std::int64_t index) {
 
 ProbedLinks TrackProbe::link(const TrackOptions& o, std::int64_t first, int count) {
   const std::lock_guard lock(mutex_);
-  std::vector<VideoFrame> frames{frames_.frame(first)};
+  std::vector<IndexedFrame> frames{frames_.frame(first)};
   while (int(frames.size()) < count) {
     auto f = frames_.find(first + std::int64_t(frames.size()));
     if (!f) break;

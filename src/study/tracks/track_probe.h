@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "study/data/run_video.h"
-#include "study/data/video_frames.h"
+#include "study/tracks/indexed_frames.h"
 #include "study/tracks/track_result.h"
 #include "study/tracks/track_survey.h"
 
@@ -42,7 +42,9 @@ class TrackProbe {
   TrackProbe(TrackOptions options, RunVideo source,
              const std::function<bool(std::int64_t done, std::int64_t total)>& progress);
 
-  const VideoFrames& frames() const { return frames_; }
+  const IndexedFrames& frames() const { return frames_; }
+  float black() const { return surveyed_.survey.black; }  ///< grey values for display
+  float white() const { return surveyed_.survey.white; }
   const VideoScale& scale() const { return source_.scale; }
 
   /// Size, threshold, polarity, background and tracker are taken from `o`. Throws Error(Errc::input) if the
@@ -65,7 +67,7 @@ class TrackProbe {
   TrackOptions options_;
   RunVideo source_;
   std::mutex mutex_;
-  VideoFrames frames_;
+  IndexedFrames frames_;
   SurveyedFrames surveyed_;
   std::optional<Prepared> prepared_;
 };

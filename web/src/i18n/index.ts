@@ -10,12 +10,13 @@ import * as tracks from './tracks';
 import * as jobs from './jobs';
 import * as analyse from './analyse';
 import * as form from './form';
+import * as video from './video';
 import * as workbench from './workbench';
 
 export { kProgram } from './program';
 
-const en = { ...app.en, ...bench.en, ...experiments.en, ...gallery.en, ...runs.en, ...tracks.en, ...jobs.en, ...analyse.en, ...form.en, ...workbench.en };
-const pt = { ...app.pt, ...bench.pt, ...experiments.pt, ...gallery.pt, ...runs.pt, ...tracks.pt, ...jobs.pt, ...analyse.pt, ...form.pt, ...workbench.pt };
+const en = { ...app.en, ...bench.en, ...experiments.en, ...gallery.en, ...runs.en, ...tracks.en, ...jobs.en, ...analyse.en, ...form.en, ...video.en, ...workbench.en };
+const pt = { ...app.pt, ...bench.pt, ...experiments.pt, ...gallery.pt, ...runs.pt, ...tracks.pt, ...jobs.pt, ...analyse.pt, ...form.pt, ...video.pt, ...workbench.pt };
 
 export type Word = keyof typeof en;
 export type Language = 'en' | 'pt';

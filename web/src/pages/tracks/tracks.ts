@@ -42,6 +42,9 @@ export interface VideoFacts {
   frames: number;
   fps: number;
   um_per_px: number | null;
+  /** Grey values for the display. */
+  black: number;
+  white: number;
 }
 export interface Detected {
   frame: number;
@@ -252,7 +255,9 @@ export async function probe<T>(what: 'detect' | 'link', asked: Record<string, un
     await new Promise((r) => setTimeout(r, 150));
   }
 }
-export const frameUrl = (file: string, frame: number) => `/api/tracks/frame.png?${new URLSearchParams({ file, frame: String(frame) })}`;
+/** Picture of a frame; `black` and `white`: grey values, automatic if they are not known. */
+export const frameUrl = (file: string, frame: number, black?: number, white?: number) =>
+  `/api/videos/frame?${new URLSearchParams({ file, index: String(frame), width: '2048', ...(black !== undefined && white !== undefined ? { low: String(black), high: String(white) } : {}) })}`;
 export const fileUrl = (folder: string, name: string) => `/api/tracks/file/${name}?${new URLSearchParams({ folder })}`;
 export const loadResult = (folder: string) => get<Result>(`/api/tracks/result?${new URLSearchParams({ folder })}`);
 export async function loadPoints(folder: string, tracks: TrackRow[]): Promise<Points> {
