@@ -76,7 +76,7 @@ it('numbers of a scenario have paths', () => {
       swarm: { type: 'array', items: { properties: { count: { type: 'integer', minimum: 1, maximum: 9 }, model: { oneOf: [{ properties: { type: { const: 'a' }, speed: number } }, { properties: { type: { const: 'b' }, other: number } }] } } } },
     },
   };
-  const found = numberPaths(schema, { title: 'x', rate: 2, free: 1, swarm: [{ count: 3, model: { type: 'a', speed: '5 um/s' } }] });
+  const found = numberPaths(schema as never, { title: 'x', rate: 2, free: 1, swarm: [{ count: 3, model: { type: 'a', speed: '5 um/s' } }] });
   expect(found.map((n) => [n.path, n.value])).toEqual([['rate', 2], ['swarm[0].count', 3], ['swarm[0].model.speed', '5 um/s']]);
 });
 
