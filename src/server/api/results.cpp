@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kBestScene = "best.toml";
-constexpr std::size_t kMostFiles = 200;
+constexpr std::size_t kMostResultFiles = 200;
 
 // A result is named by its page, a file below runs/: "runs/study/identify.html".
 fs::path page_of(const LabServices& lab, const std::string& name) {
@@ -44,7 +44,7 @@ Json files_of(const LabServices& lab, const fs::path& page) {
     if (!e.is_regular_file() || e.is_symlink() || file.filename().string().starts_with('.')) continue;
     if (alone && file.stem() != page.stem()) continue;
     const bool known = std::find(kKinds.begin(), kKinds.end(), file.extension()) != kKinds.end();
-    if (known && found.size() < kMostFiles) found.push_back(file);
+    if (known && found.size() < kMostResultFiles) found.push_back(file);
   }
   std::sort(found.begin(), found.end());
   Json files = Json::array();
