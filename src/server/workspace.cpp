@@ -36,9 +36,11 @@ std::vector<fs::path> sorted_files(const fs::path& folder, std::string_view exte
   return found;
 }
 
-// Whether an absolute path without links is in a folder, and neither the file nor a folder on the way is hidden.
+// Whether an absolute path without links is in a folder, and neither the file nor a folder on the way is
+// hidden.
 bool lies_below(const fs::path& folder, const fs::path& file) {
-  if (std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first != folder.end()) return false;
+  if (std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first != folder.end())
+    return false;
   const fs::path below = file.lexically_relative(folder);
   return std::none_of(below.begin(), below.end(),
                       [](const fs::path& part) { return part != "." && part.string().starts_with('.'); });
@@ -48,23 +50,6 @@ bool holds_run(const fs::path& dir) {
   std::error_code ec;
   return fs::is_regular_file(dir / run_files::kManifest, ec) &&
          fs::is_regular_file(dir / run_files::kScenario, ec);
-}
-
-// One entry of the list of coil systems: its file, the number of its coils (0 if the file is not readable),
-// and whether it has default currents.
-Json rig_card(const fs::path& file) {
-  Json card = {{"file", "rigs/" + file.filename().string()}, {"coils", 0}, {"currents", false}};
-  try {
-    const Document d = read_toml(file);
-    const auto coils = d.root.find("coil");
-    if (coils == d.root.end() || !coils->is_array()) return card;
-    card["coils"] = coils->size();
-    card["currents"] =
-        std::any_of(coils->begin(), coils->end(), [](const Json& c) { return c.contains("current"); });
-  } catch (const Error&) {
-    return card;  // the job reports the error
-  }
-  return card;
 }
 
 }  // namespace
@@ -160,11 +145,17 @@ std::vector<std::string> Workspace::pictures() const {
   std::vector<std::string> found;
   std::error_code ec;
   for (const char* folder : {".", kPictureFolder, "videos", "data"})
-    for (const char* kind : kPictures)
-      for (const fs::path& f : sorted_files(root_ / folder, kind))
-        found.push_back(fs::relative(f, root_, ec).string());
-  for (const auto& video : files()["videos"])
-    if (std::find(found.begin(), found.end(), video) == found.end()) found.push_back(video);
+    for (const fs::directory_entry& e : fs::directory_iterator(root_ / folder, ec))
+      if (has_video_name(e.path()) && may_read(e.path()) && found.size() < kMostFiles)
+        found.push_back(name_of(e.path()));
+  std::sort(found.begin(), found.end());
+  for (const std::string& run : runs()) {
+    try {
+      if (has_camera_video(root_ / "runs" / run)) found.push_back("runs/" + run);
+    } catch (const Error&) {
+      continue;  // damaged or incomplete
+    }
+  }
   return found;
 }
 
@@ -212,37 +203,7 @@ std::vector<std::string> Workspace::runs() const {
   return names;
 }
 
-Json Workspace::files() const {
-  Json videos = Json::array(), studies = Json::array(), rigs = Json::array();
-  for (const std::string& run : runs()) {
-    try {
-      if (has_camera_video(root_ / "runs" / run)) videos.push_back("runs/" + run);
-    } catch (const Error&) {
-      continue;  // damaged or incomplete
-    }
-  }
-  std::error_code ec;
-  for (const char* folder : {".", "videos", "data"})
-    for (const char* kind : kVideos)
-      for (const fs::path& f : sorted_files(root_ / folder, kind))
-        videos.push_back(fs::relative(f, root_, ec).string());
-  for (const fs::path& f : sorted_files(root_ / "studies", ".toml")) {
-    try {
-      const Document d = read_toml(f);
-      const char* verb = d.root.contains("scene") && d.root["scene"].is_string() ? "compare-controllers"
-                         : d.root.contains("model")                              ? "identify"
-                                                                                 : "activity";
-      studies.push_back({{"file", "studies/" + f.filename().string()}, {"verb", verb}});
-    } catch (const Error&) {
-      continue;  // not a study, or incomplete
-    }
-  }
-  for (const fs::path& f : sorted_files(root_ / "rigs", ".toml")) rigs.push_back(rig_card(f));
-  return {{"videos", videos}, {"studies", studies}, {"rigs", rigs}};
-}
-
 bool has_video_name(const fs::path& file) {
-  constexpr std::array<std::string_view, 5> kPictures = {".tiff", ".png", ".jpg", ".pgm", ".bmp"};
   std::string extension = file.extension();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return char(std::tolower(c)); });

@@ -57,8 +57,6 @@ class Workspace {
   std::filesystem::path scene(std::string_view name) const;
   /// Names of the directories below runs/ with a recorded run, newest first.
   std::vector<std::string> runs() const;
-  /// Inputs of the analyses: videos and runs with a camera video, studies with their verb, rigs.
-  Json files() const;
 
  private:
   std::filesystem::path root_, gallery_;

@@ -124,13 +124,14 @@ TEST_CASE("an error in an imported file names the file once, with the line") {
   CHECK(check("", "seed =\n") == "file:1");
 }
 
-TEST_CASE("currents of a field map must be a list of numbers") {
+TEST_CASE("currents of a field map must be a list of numbers, and no job starts with other values") {
   const Served lab;
   fs::create_directories(lab.folder() / "rigs");
   write_file(lab.folder() / "rigs/a.toml", "");
-  for (const char* current : {"", " ", "0.5,", "0.5,,1", "a", "0.5 A", "nan", "1;2"}) {
-    INFO(current);
-    const Json asked = {{"verb", "field map"}, {"rig", "rigs/a.toml"}, {"current", current}};
+  for (const Json& current : {Json(" "), Json("0.5,1"), Json({"0.5", ""}), Json({"a"}), Json({"0.5 T"}),
+                              Json({"nan"}), Json({"--json"})}) {
+    INFO(current.dump());
+    const Json asked = {{"kind", "field-map"}, {"values", {{"rig", "rigs/a.toml"}, {"current", current}}}};
     const std::string a =
         lab.ask("POST /api/jobs", lab.own() + "Content-Type: application/json\r\n", asked.dump());
     CHECK(status_of(a) == 422);

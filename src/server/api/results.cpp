@@ -20,12 +20,13 @@ namespace fs = std::filesystem;
 constexpr const char* kBestScene = "best.toml";
 constexpr std::size_t kMostResultFiles = 200;
 
-// A result is named by its page, a file below runs/: "runs/study/identify.html".
+// A result is named by its page, a file below runs/ or experiments/: "runs/study/identify.html".
 fs::path page_of(const LabServices& lab, const std::string& name) {
   fs::path page = lab.workspace.existing(name);
-  const fs::path runs = lab.workspace.root() / "runs";
-  if (!fs::is_regular_file(page) || !std::equal(runs.begin(), runs.end(), page.begin()))
-    throw Error(Errc::usage, name, "is not the page of a result; it must be a file below runs/");
+  const bool below = name.starts_with("runs/") || name.starts_with("experiments/");
+  if (!below || !fs::is_regular_file(page))
+    throw Error(Errc::usage, name,
+                "is not the page of a result; it must be a file below runs/ or experiments/");
   return page;
 }
 
@@ -114,16 +115,21 @@ Json compare_with_video(const LabServices& lab, const Json& asked) {
     run = fmt::format("{}-best-{}", stem, number);
     report = fmt::format("{}-compared-{}.html", stem, number);
   } while (taken());
-  lab.jobs.add("run: " + run, {"run", "./" + scene, "--seed", "1", "--out", run, "--json"},
-               run + "/report.html", run);
-  const int id = lab.jobs.add("compare: " + fs::path(video).filename().string(),
-                              {"compare", "./" + video, run, "--report", report, "--json"}, report, report);
+  lab.jobs.add({.title = "run: " + run,
+                .words = {"run", "./" + scene, "--seed", "1", "--out", run, "--json"},
+                .page = run + "/report.html",
+                .out = run});
+  const int id = lab.jobs.add({.title = "compare: " + fs::path(video).filename().string(),
+                               .words = {"compare", "./" + video, run, "--report", report, "--json"},
+                               .page = report,
+                               .out = report});
   return {{"id", id}, {"page", report}};
 }
 
 std::string page_in(const WebRequest& r) {
   const auto it = r.query.find("page");
-  if (it == r.query.end()) throw Error(Errc::usage, "page", "missing; it must be a file below runs/");
+  if (it == r.query.end())
+    throw Error(Errc::usage, "page", "missing; it must be a file below runs/ or experiments/");
   return it->second;
 }
 
