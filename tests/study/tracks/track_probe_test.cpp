@@ -93,7 +93,8 @@ TEST_CASE("track probe: the detections of a frame are those of the tracking of t
         CAPTURE(i);
         const std::vector<Place> places = probed(probe, all[i], frame);
         CHECK(places == tracked(all[i], frame));
-        if (i == 0) CHECK(places.size() >= std::size_t(kMoving) * 8 / 10);
+        // Some cells have left the picture in the last frames.
+        if (i == 0) CHECK(places.size() >= std::size_t(kMoving) / 2);
       }
   }
 }
