@@ -40,6 +40,16 @@ class Workspace {
   /// in the folder of the gallery's project, or to a path that is not a file.
   void check_files(const Json& scenario) const;
 
+  /// The file that a scenario sent by a page refers to: relative to the gallery if it exists there, otherwise
+  /// to the workspace. Throws Error(usage) as check_files(); the file need not exist.
+  std::filesystem::path scenario_file(const std::string& name) const;
+  /// Pictures and videos that may show a drop: the pictures in the workspace and its folders pictures/,
+  /// videos/ and data/, and the videos of files().
+  std::vector<std::string> pictures() const;
+  /// Copies a file to pictures/, under a name that is not used yet; the result is relative to the workspace.
+  /// `name`: the wanted name, with its extension; its folder is ignored. Throws Error(usage) as inside().
+  std::string keep_picture(const std::filesystem::path& file, const std::string& name) const;
+
   const std::filesystem::path& gallery() const { return gallery_; }  ///< folder of the scenes
   /// Scenario files of the gallery, sorted.
   std::vector<std::filesystem::path> scenes() const;
@@ -47,8 +57,6 @@ class Workspace {
   std::filesystem::path scene(std::string_view name) const;
   /// Names of the directories below runs/ with a recorded run, newest first.
   std::vector<std::string> runs() const;
-  /// Inputs of the analyses: videos and runs with a camera video, studies with their verb, rigs.
-  Json files() const;
 
  private:
   std::filesystem::path root_, gallery_;

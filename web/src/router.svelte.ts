@@ -3,8 +3,8 @@
 // loads the page.
 
 /** The pages of the navigation bar. */
-export const kTabs = ['lab', 'gallery', 'experiments', 'runs', 'analyse', 'tracks', 'bench'] as const;
-export const kPages = [...kTabs, 'video'] as const;
+export const kTabs = ['lab', 'gallery', 'experiments', 'runs', 'analyse', 'jobs', 'bench'] as const;
+export const kPages = [...kTabs, 'own', 'result', 'tracks', 'video'] as const;
 export type PageName = (typeof kPages)[number];
 
 export interface Place {

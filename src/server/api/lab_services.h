@@ -6,9 +6,9 @@
 #include "server/api/routes.h"
 #include "server/experiments/experiment_store.h"
 #include "server/experiments/imports.h"
-#include "server/job_list.h"
 #include "server/runs/run_catalogue.h"
 #include "server/trash.h"
+#include "server/jobs/job_list.h"
 #include "server/workspace.h"
 
 namespace faba {
@@ -33,6 +33,8 @@ void add_experiment_routes(Routes& routes, const LabServices& lab);
 void add_folder_routes(Routes& routes, const LabServices& lab);
 void add_gallery_routes(Routes& routes, const LabServices& lab);
 void add_job_routes(Routes& routes, const LabServices& lab);
+void add_input_routes(Routes& routes, const LabServices& lab);
+void add_result_routes(Routes& routes, const LabServices& lab);
 void add_run_routes(Routes& routes, const LabServices& lab);
 void add_scenario_routes(Routes& routes, const LabServices& lab);
 void add_track_routes(Routes& routes, const LabServices& lab);

@@ -1,9 +1,11 @@
 import type { Language } from '.';
+import { jobTexts } from './job_texts';
 
 /** Translations of fixed texts of the program: sections of a scenario, verbs, steps of a job, messages of the server. */
 export const kProgram: Record<Language, Record<string, string>> = {
   en: {},
   pt: {
+    ...jobTexts,
     swarm: 'enxame', model: 'modelo', start: 'posições iniciais', controller: 'controlador', reference: 'referência', estimator: 'estimador', field: 'campo', motility: 'motilidade', scale: 'escala', camera: 'câmera',
     limits: 'limites', exclusion: 'exclusão', simulation: 'simulação', record: 'gravação', microscope: 'microscópio', flow: 'fluxo óptico', rig: 'bancada', library: 'biblioteca', coil: 'bobina', segment: 'segmento',
     activity: 'atividade', compare: 'comparação', identify: 'identificação', 'compare-controllers': 'comparação de controladores', 'field map': 'mapa do campo', track: 'rastreamento', moving: 'em movimento', still: 'parada', drifting: 'à deriva',
