@@ -18,7 +18,7 @@ namespace {
 constexpr int kFrames = 70;  // more than the 50 that the background uses at most
 constexpr int kMoving = 25;
 
-// Moving cells, and some that stand still in half of the tests.
+// Moving cells, and some that do not move in half of the tests.
 std::filesystem::path film(const std::filesystem::path& folder, int still) {
   const std::filesystem::path out = folder / "film";
   std::filesystem::create_directories(out);
