@@ -13,8 +13,9 @@ export interface Settings {
   memory?: number;
   least?: number;
   'um-per-px'?: number;
+  fps?: number;
 }
-const kNumberKeys = ['size', 'threshold', 'reach', 'memory', 'least', 'um-per-px'] as const;
+const kNumberKeys = ['size', 'threshold', 'reach', 'memory', 'least', 'um-per-px', 'fps'] as const;
 const kWordKeys = ['polarity', 'background', 'motion'] as const;
 
 /** The settings in the values of an address. */
