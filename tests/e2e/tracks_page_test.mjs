@@ -7,7 +7,7 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync } from 'node:fs';
 import { join } from 'node:path';
-import { address, browser, complaints, elsewhere, faba, kJobPatience, lab, page, program, read, shot, step, tab, until, workspace } from './lab_page.mjs';
+import { address, browser, complaints, elsewhere, faba, kJobPatience, lab, page, program, read, shot, step, until, workspace } from './lab_page.mjs';
 
 const csv = (file) => readFileSync(join(workspace, file), 'utf8');
 const dataLines = (text) => text.trim().split('\n').filter((l) => !l.startsWith('#')).slice(1);
@@ -25,8 +25,7 @@ await step('a video is selected', async () => {
   mkdirSync(join(workspace, 'videos'), { recursive: true });
   const video = readdirSync(join(workspace, 'seen')).find((f) => /^video\.(avi|mp4)$/.test(f));
   cpSync(join(workspace, 'seen', video), join(workspace, 'videos', video));
-  await page.goto(address);
-  await tab('Tracks');
+  await page.goto(`${address}#/tracks`);
   await page.getByRole('link', { name: `videos/${video}` }).click();
   await page.getByText('cells detected in this frame').waitFor();
   await page.getByText(/automatic: [\d.]+ px/).waitFor();

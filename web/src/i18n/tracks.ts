@@ -1,6 +1,7 @@
 export const en = {
   'tab.tracks': 'Tracks',
   'tracks.title': 'Tracks',
+  'tracks.about': 'Detect, link, filter and correct the tracks of single cells, with the result in view.',
   'tracks.steps': 'Steps of the tracking',
   'tracks.step.detect': 'Detect',
   'tracks.step.link': 'Link',
@@ -120,6 +121,7 @@ export const en = {
 export const pt: Record<keyof typeof en, string> = {
   'tab.tracks': 'Trajetórias',
   'tracks.title': 'Trajetórias',
+  'tracks.about': 'Detectar, ligar, filtrar e corrigir as trajetórias de células, com o resultado à vista.',
   'tracks.steps': 'Etapas do rastreamento',
   'tracks.step.detect': 'Detectar',
   'tracks.step.link': 'Ligar',
