@@ -89,6 +89,7 @@ class Pages {
     }
   }
   void jobs_changed() { broadcast(jobs_message()); }
+  void tell(const Json& news) { broadcast(news.dump()); }
 
  private:
   void carry_out(const PageMessage& m, const PageSocketRef& s) {
@@ -210,7 +211,7 @@ class Pages {
 }  // namespace
 
 void serve_lab(const LabOptions& o) {
-  const Workspace workspace(o.workspace, o.scenes);
+  const Workspace workspace(o.workspace, o.scenes, o.allowed);
   const PrivateFolder folder;
   WebServer server(o.port, folder.path());
   const Access access(random_token(), server.port());
@@ -236,7 +237,7 @@ void serve_lab(const LabOptions& o) {
     const LiveRun check(d, seed.value_or(1), parts, pool);
     live.start(d, seed, [](const Json&) {});
   }
-  Api api(workspace, jobs, folder.path(), o.pages);
+  Api api(workspace, jobs, folder.path(), o.pages, [&](const Json& news) { watchers.tell(news); });
 
   std::jthread watch([&](const std::stop_token& s) {
     while (!s.stop_requested() && !(o.stop && o.stop->load()))

@@ -1,4 +1,5 @@
-// A live lab in a temporary folder, and a browser with its page, for lab_test.mjs.
+// A live lab in a temporary folder, and a browser with its page, for lab_test.mjs and gallery_test.mjs. With --www FOLDER the page is
+// read from a folder, for development.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -8,7 +9,7 @@ import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { serve } from '../../bench/lab_client.mjs';
 
-const option = (name) => {
+export const option = (name) => {
   const i = process.argv.indexOf(`--${name}`);
   return i < 0 ? null : resolve(process.argv[i + 1]);
 };
@@ -27,13 +28,16 @@ if (pictures) mkdirSync(pictures, { recursive: true });
 export const faba = (...words) => JSON.parse(execFileSync(program, [...words, '--json'], { cwd: workspace, encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }));
 
 /** The process of the server and its address; serveAgain() starts another server. */
-export let { lab, address } = await serve(program, workspace);
+const www = option('www') ? ['--www', option('www')] : [];
+export let { lab, address } = await serve(program, workspace, ...www);
 export async function serveAgain(...more) {
-  ({ lab, address } = await serve(program, workspace, ...more));
+  ({ lab, address } = await serve(program, workspace, ...www, ...more));
 }
 process.on('exit', () => lab.kill('SIGKILL')); // also after a failure
 export const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox'] });
 export const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, locale: 'en-GB', colorScheme: 'light', acceptDownloads: true });
+// The steps read positions in pixels, as those of the picture; the step on units uses micrometres.
+await context.addInitScript(() => localStorage.getItem('faba.unit') ?? localStorage.setItem('faba.unit', '"px"'));
 export const page = await context.newPage();
 page.setDefaultTimeout(kPatience);
 /** Errors that the page reported on the console. */
@@ -59,7 +63,11 @@ export const step = async (what, does) => {
   console.log(`ok ${what} (${((Date.now() - began) / 1000).toFixed(1)} s)`);
 };
 export const tab = (name) => page.locator('nav').getByRole('link', { name: new RegExp(`^${name}`) }).click();
-export const panel = (name) => page.getByRole('tab', { name: new RegExp(`^${name}`) }).click();
+/** Shows a panel of the workbench: in a wide window some have no tab, because they are always visible. */
+export const panel = async (name) => {
+  const one = page.getByRole('tab', { name: new RegExp(`^${name}`) });
+  if (await one.count()) await one.click();
+};
 /** The numbers in an element of the page. */
 export const read = async (what) => (await page.locator(`[data-read="${what}"]`).textContent()).match(/-?[\d.]+/g)?.map(Number) ?? [];
 export async function until(holds, what) {

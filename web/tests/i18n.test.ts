@@ -5,7 +5,7 @@ const kLanguages = Object.keys(kWords) as Language[];
 const kKeys = Object.keys(kWords.en) as Word[];
 const placeholders = (text: string) => [...text.matchAll(/\{(\w+)\}/g)].map((m) => m[1]).sort();
 const sources = Object.entries(import.meta.glob<string>('../src/**/*.{ts,svelte}', { query: '?raw', import: 'default', eager: true })).filter(
-  ([path]) => !path.endsWith('/i18n.ts'),
+  ([path]) => !path.includes('/i18n/'),
 );
 const text = sources.map(([, source]) => source).join('\n');
 /** Prefixes of composed keys, as in say(`tab.${t}`). */

@@ -21,7 +21,8 @@ Schema<Scenario::Params> Scenario::schema() {
            {.unit = "s",
             .min = 0,
             .max = 1e6,
-            .doc = "Air exposure time before the run; has an effect with a motility law"});
+            .doc = "Air exposure time before the run; has an effect with a motility law",
+            .title = "Air exposure time"});
 }
 
 std::uint64_t Scenario::frames() const {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/toml.h"
-#include "server/job_list.h"
+#include "server/jobs/job_list.h"
 #include "server/trash.h"
 #include "server/workspace.h"
 
