@@ -35,6 +35,7 @@ Api::Api(const Workspace& workspace, JobList& jobs, fs::path pictures, fs::path 
   add_experiment_routes(routes_, lab_);
   add_folder_routes(routes_, lab_);
   add_job_routes(routes_, lab_);
+  add_track_routes(routes_, lab_);
   add_trash_routes(routes_, lab_);
   add_input_routes(routes_, lab_);
   add_upload_routes(routes_, lab_);

@@ -37,6 +37,7 @@ void add_input_routes(Routes& routes, const LabServices& lab);
 void add_result_routes(Routes& routes, const LabServices& lab);
 void add_run_routes(Routes& routes, const LabServices& lab);
 void add_scenario_routes(Routes& routes, const LabServices& lab);
+void add_track_routes(Routes& routes, const LabServices& lab);
 void add_trash_routes(Routes& routes, const LabServices& lab);
 void add_upload_routes(Routes& routes, const LabServices& lab);
 void add_video_routes(Routes& routes, const LabServices& lab);

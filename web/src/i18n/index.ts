@@ -12,6 +12,7 @@ import * as lab from './lab';
 import * as own from './own';
 import * as result from './result';
 import * as runs from './runs';
+import * as tracks from './tracks';
 import * as video from './video';
 import * as workbench from './workbench';
 
@@ -30,6 +31,7 @@ const en = {
   ...own.en,
   ...result.en,
   ...runs.en,
+  ...tracks.en,
   ...video.en,
   ...workbench.en,
 };
@@ -45,6 +47,7 @@ const pt = {
   ...own.pt,
   ...result.pt,
   ...runs.pt,
+  ...tracks.pt,
   ...video.pt,
   ...workbench.pt,
 };
