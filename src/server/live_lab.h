@@ -66,6 +66,7 @@ class LiveLab {
   void broadcast(const Json& news);
   Json state() const;
   Json run_news() const;
+  Json history_news() const;
   Json parts_news() const;
 
   Parts parts_;

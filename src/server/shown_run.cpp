@@ -8,6 +8,7 @@ namespace faba {
 namespace {
 
 constexpr std::size_t kRows = 32;  // rows of the series per message; pages that missed messages need several
+constexpr std::size_t kHistory = 1200;  // rows for pages that connect later; a plot has about as many pixels
 constexpr int kFieldColumns = 17, kFieldRows = 13;
 constexpr std::size_t kMostHeadings = 20000;  // headings are not visible for more cells
 
@@ -17,7 +18,8 @@ ShownRun::ShownRun(const Document& d, std::uint64_t seed, const Parts& parts, Po
     : document(d),
       live(d, seed, parts, pool),
       row(sink_context(live.scenario(), live.simulation(), pool, {})),
-      columns(row.names()) {
+      columns(row.names()),
+      history(kHistory) {
   columns.emplace_back("activity_um_s");
   const Simulation& s = live.simulation();
   const Grid g = s.world().parts().arena->grid();
@@ -46,6 +48,7 @@ void ShownRun::take(const Tick& t) {
   const double now = live.simulation().rig().time_of(t.index);
   v.push_back(mean_speed(now - time) * 1e6);
   time = now;
+  history.add(v);
   if (rows.size() == kRows * v.size()) rows.erase(rows.begin(), rows.begin() + std::ptrdiff_t(v.size()));
   rows.insert(rows.end(), v.begin(), v.end());
 }

@@ -7,6 +7,7 @@
 #include "app/run/live_run.h"
 #include "app/sinks/series_row.h"
 #include "server/frame_message.h"
+#include "server/row_history.h"
 
 namespace faba {
 
@@ -24,6 +25,7 @@ struct ShownRun final : Sink {
   SeriesRow row;
   std::vector<std::string> columns;
   std::vector<double> rows;  ///< the newest kRows rows
+  RowHistory history;        ///< for pages that connect later
   double time = 0;
   std::vector<float> before_x, before_y;  ///< m, positions in the previous frame
   PictureBox box;

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::size_t kLongest = 1000;
-constexpr std::size_t kMostFiles = 500;
+constexpr std::size_t kMostFiles = 500, kMostRuns = 5000;
 constexpr std::array<const char*, 6> kVideos = {".mp4", ".avi", ".mkv", ".mov", ".webm", ".tif"};
 constexpr std::array<const char*, 8> kPictures = {".png",  ".jpg", ".jpeg", ".tif",
                                                   ".tiff", ".pgm", ".ppm",  ".bmp"};
@@ -36,33 +36,32 @@ std::vector<fs::path> sorted_files(const fs::path& folder, std::string_view exte
   return found;
 }
 
+// Whether an absolute path without links is in a folder, and neither the file nor a folder on the way is
+// hidden.
+bool lies_below(const fs::path& folder, const fs::path& file) {
+  if (std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first != folder.end())
+    return false;
+  const fs::path below = file.lexically_relative(folder);
+  return std::none_of(below.begin(), below.end(),
+                      [](const fs::path& part) { return part != "." && part.string().starts_with('.'); });
+}
+
 bool holds_run(const fs::path& dir) {
   std::error_code ec;
   return fs::is_regular_file(dir / run_files::kManifest, ec) &&
          fs::is_regular_file(dir / run_files::kScenario, ec);
 }
 
-// One entry of the list of coil systems: its file, the number of its coils (0 if the file is not readable),
-// and whether it has default currents.
-Json rig_card(const fs::path& file) {
-  Json card = {{"file", "rigs/" + file.filename().string()}, {"coils", 0}, {"currents", false}};
-  try {
-    const Document d = read_toml(file);
-    const auto coils = d.root.find("coil");
-    if (coils == d.root.end() || !coils->is_array()) return card;
-    card["coils"] = coils->size();
-    card["currents"] =
-        std::any_of(coils->begin(), coils->end(), [](const Json& c) { return c.contains("current"); });
-  } catch (const Error&) {
-    return card;  // the job reports the error
-  }
-  return card;
-}
-
 }  // namespace
 
-Workspace::Workspace(const fs::path& root, const fs::path& scenes) : root_(fs::canonical(root)) {
+Workspace::Workspace(const fs::path& root, const fs::path& scenes, const std::vector<fs::path>& allowed)
+    : root_(fs::canonical(root)) {
   gallery_ = fs::is_directory(root_ / "scenes") ? root_ / "scenes" : scenes;
+  for (const fs::path& folder : allowed) {
+    std::error_code ec;
+    if (!fs::is_directory(folder, ec)) throw Error(Errc::usage, folder.string(), "is not a folder");
+    allowed_.push_back(fs::canonical(folder));
+  }
 }
 
 fs::path Workspace::inside(std::string_view name) const {
@@ -75,14 +74,30 @@ fs::path Workspace::inside(std::string_view name) const {
   // Links are resolved before the check.
   std::error_code ec;
   fs::path real = fs::weakly_canonical(root_ / asked, ec);
-  const auto [at, _] = std::mismatch(root_.begin(), root_.end(), real.begin(), real.end());
-  if (ec || at != root_.end()) throw out_of_reach(name);
+  if (ec || !lies_below(root_, real)) throw out_of_reach(name);
   return real;
 }
 
-fs::path Workspace::existing(std::string_view name) const {
-  fs::path path = inside(name);
+bool Workspace::may_read(const fs::path& file) const {
   std::error_code ec;
+  const fs::path real = fs::weakly_canonical(file, ec);
+  if (ec) return false;
+  return lies_below(root_, real) ||
+         std::any_of(allowed_.begin(), allowed_.end(),
+                     [&](const fs::path& folder) { return lies_below(folder, real); });
+}
+
+std::string Workspace::name_of(const fs::path& file) const {
+  std::error_code ec;
+  const fs::path real = fs::weakly_canonical(file, ec);
+  return lies_below(root_, real) ? real.lexically_relative(root_).string() : real.string();
+}
+
+fs::path Workspace::existing(std::string_view name) const {
+  std::error_code ec;
+  const bool absolute = name.starts_with('/') && name.size() <= kLongest && name.find('\0') == name.npos;
+  if (absolute && !may_read(name)) throw out_of_reach(name);
+  fs::path path = absolute ? fs::weakly_canonical(name, ec) : inside(name);
   if (!fs::is_regular_file(path, ec) && !fs::is_directory(path, ec))
     throw Error(Errc::input, std::string(name), "file not found in the folder in which the lab was started");
   return path;
@@ -130,11 +145,17 @@ std::vector<std::string> Workspace::pictures() const {
   std::vector<std::string> found;
   std::error_code ec;
   for (const char* folder : {".", kPictureFolder, "videos", "data"})
-    for (const char* kind : kPictures)
-      for (const fs::path& f : sorted_files(root_ / folder, kind))
-        found.push_back(fs::relative(f, root_, ec).string());
-  for (const auto& video : files()["videos"])
-    if (std::find(found.begin(), found.end(), video) == found.end()) found.push_back(video);
+    for (const fs::directory_entry& e : fs::directory_iterator(root_ / folder, ec))
+      if (has_video_name(e.path()) && may_read(e.path()) && found.size() < kMostFiles)
+        found.push_back(name_of(e.path()));
+  std::sort(found.begin(), found.end());
+  for (const std::string& run : runs()) {
+    try {
+      if (has_camera_video(root_ / "runs" / run)) found.push_back("runs/" + run);
+    } catch (const Error&) {
+      continue;  // damaged or incomplete
+    }
+  }
   return found;
 }
 
@@ -178,37 +199,16 @@ std::vector<std::string> Workspace::runs() const {
   std::sort(found.rbegin(), found.rend());
   std::vector<std::string> names;
   for (auto& [_, name] : found)
-    if (names.size() < kMostFiles) names.push_back(std::move(name));
+    if (names.size() < kMostRuns) names.push_back(std::move(name));
   return names;
 }
 
-Json Workspace::files() const {
-  Json videos = Json::array(), studies = Json::array(), rigs = Json::array();
-  for (const std::string& run : runs()) {
-    try {
-      if (has_camera_video(root_ / "runs" / run)) videos.push_back("runs/" + run);
-    } catch (const Error&) {
-      continue;  // damaged or incomplete
-    }
-  }
-  std::error_code ec;
-  for (const char* folder : {".", "videos", "data"})
-    for (const char* kind : kVideos)
-      for (const fs::path& f : sorted_files(root_ / folder, kind))
-        videos.push_back(fs::relative(f, root_, ec).string());
-  for (const fs::path& f : sorted_files(root_ / "studies", ".toml")) {
-    try {
-      const Document d = read_toml(f);
-      const char* verb = d.root.contains("scene") && d.root["scene"].is_string() ? "compare-controllers"
-                         : d.root.contains("model")                              ? "identify"
-                                                                                 : "activity";
-      studies.push_back({{"file", "studies/" + f.filename().string()}, {"verb", verb}});
-    } catch (const Error&) {
-      continue;  // not a study, or incomplete
-    }
-  }
-  for (const fs::path& f : sorted_files(root_ / "rigs", ".toml")) rigs.push_back(rig_card(f));
-  return {{"videos", videos}, {"studies", studies}, {"rigs", rigs}};
+bool has_video_name(const fs::path& file) {
+  std::string extension = file.extension();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  return std::ranges::find(kVideos, extension) != kVideos.end() ||
+         std::ranges::find(kPictures, extension) != kPictures.end();
 }
 
 }  // namespace faba

@@ -140,7 +140,7 @@ await step('a picture without a drop: the reason, no circle, three points on an 
   await shot('own-box');
 });
 
-const real = option('drops') && join(option('drops'), '00000.tif');
+const real = option('data') && join(option('data'), 'drops', '00000.tif');
 const picture = real && existsSync(real) ? real : pgm('round.pgm', 518, 488, drop(258, 228, 163));
 await step(`the drop of ${real === picture ? 'a real picture' : 'a made picture'}: found, corrected by hand, scaled, started; a reload in every step keeps the state`, async () => {
   await page.getByRole('link', { name: '1. Picture' }).click();

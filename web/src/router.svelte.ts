@@ -2,10 +2,10 @@
 // `runs`, its parts ["steer"], and the values { at: "3" }. The part behind # is not sent to the server, so that any address
 // loads the page.
 
-export const kPages = ['lab', 'gallery', 'experiments', 'runs', 'analyse', 'bench', 'own'] as const;
+/** The pages of the navigation bar. */
+export const kTabs = ['lab', 'gallery', 'experiments', 'runs', 'analyse', 'jobs', 'bench'] as const;
+export const kPages = [...kTabs, 'own', 'video'] as const;
 export type PageName = (typeof kPages)[number];
-/** The pages in the header; the others are reached from them. */
-export const kNavigation = kPages.filter((p) => p !== 'own');
 
 export interface Place {
   page: PageName;

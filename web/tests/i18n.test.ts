@@ -56,7 +56,7 @@ describe('the sources', () => {
   test('composed keys exist', () => {
     const states = ['waiting', 'running', 'done', 'failed', 'cancelled'].map((s) => `job.${s}`);
     const layers = /kLayers = \[([^\]]+)\]/.exec(text)![1].match(/\w+/g)!.map((l) => `layer.${l}`);
-    const tabs = /kPages = \[([^\]]+)\]/.exec(text)![1].match(/\w+/g)!.filter((t) => t !== 'own').map((t) => `tab.${t}`);
+    const tabs = /kPages = \[([^\]]+)\]/.exec(text)![1].match(/\w+/g)!.map((t) => `tab.${t}`);
     const panels = /kPanels = \[([^\]]+)\]/.exec(text)![1].match(/\w+/g)!;
     const plots = [...text.matchAll(/\{ key: '(\w+)', unit/g)].map((m) => `plot.${m[1]}`);
     expect(plots.length).toBeGreaterThan(3);

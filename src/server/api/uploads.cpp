@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <cctype>
 #include <functional>
 
 #include "core/error.h"
 #include "server/api/lab_services.h"
 #include "server/api/responses.h"
+#include "server/api/rulers.h"
 #include "server/experiments/experiment_store.h"
 #include "server/request_values.h"
 #include "study/data/run_video.h"
@@ -33,6 +35,30 @@ auto under_name(const std::string& name, const fs::path& file, const F& read) {
     for (std::size_t at = 0; (at = reason.find(file.string(), at)) != std::string::npos; at += name.size())
       reason.replace(at, file.string().size(), name);
     throw Error(e.code() == Errc::input ? Errc::usage : e.code(), name, reason);
+  }
+}
+
+// The scale of an experiment from a picture of a ruler, which is kept in the folder of the experiment.
+Json take_ruler(const LabServices& lab, const WebRequest& r) {
+  const auto value = [&](const char* key) {
+    const auto it = r.query.find(key);
+    return it == r.query.end() ? std::string() : it->second;
+  };
+  const std::string experiment = value("experiment");
+  (void)lab.experiments.folder(experiment);
+  const std::string name = safe_name(fs::path(value("name")).filename().string());
+  const std::string extension = fs::path(name).extension().string();
+  // The type of a picture is known by its name.
+  const fs::path named = r.upload.string() + extension;
+  fs::rename(r.upload, named);
+  try {
+    Json j = measure_ruler(lab, named, std::strtod(value("tick_um").c_str(), nullptr),
+                           "experiments/" + experiment + "/ruler", extension);
+    fs::remove(named);
+    return j;
+  } catch (const Error& e) {
+    fs::remove(named);
+    throw Error(Errc::usage, e.where().empty() ? name : e.where(), e.reason());
   }
 }
 
@@ -111,6 +137,8 @@ WebResponse shown_picture(const LabServices& lab, const WebRequest& r) {
 void add_upload_routes(Routes& routes, const LabServices& lab) {
   routes.add("POST", "/api/upload",
              [&lab](const auto& r, const auto&) { return json_answer(take_upload(lab, r)); });
+  routes.add("POST", "/api/upload/ruler",
+             [&lab](const auto& r, const auto&) { return json_answer(take_ruler(lab, r)); });
   routes.add("GET", "/api/uploads/*", [&lab](const auto&, const auto& names) {
     const fs::path file = lab.pictures / names[0];
     if (!fs::exists(file)) throw Error(Errc::input, names[0], "file not found");

@@ -1,4 +1,4 @@
-#include "server/job_list.h"
+#include "server/jobs/job_list.h"
 
 #include <doctest/doctest.h>
 
@@ -30,7 +30,6 @@ Job wait_for(const JobList& list, int id, const std::function<bool(const Job&)>&
   FAIL("timeout: the job did not reach the expected state");
   return {};
 }
-bool is_over(const Job& j) { return j.state > Job::State::running; }
 
 }  // namespace
 
@@ -93,4 +92,78 @@ TEST_CASE("cancel stops the running job with SIGINT and, after a timeout, with S
   wait_for(list, ignores, [&](const Job&) { return fs::exists(folder.path() / "started"); });
   list.cancel(ignores);
   CHECK(wait_for(list, ignores, is_over).state == Job::State::cancelled);
+}
+
+TEST_CASE("the queue: a job moves to the front, and an ended one starts again or leaves the list") {
+  test::TemporaryFolder folder("jobs");
+  const fs::path program = script(folder.path(),
+                                  "echo \"$1\" >> order\n"
+                                  "[ \"$1\" = first ] && while [ ! -e go ]; do sleep 0.02; done\n"
+                                  "[ \"$1\" = bad ] && [ ! -e mended ] && exit 1\nexit 0\n");
+  JobList list(program, folder.path(), [] {});
+  const int first = list.add("", {"first"}, "", ""), bad = list.add("", {"bad"}, "", ""),
+            last = list.add("", {"last"}, "", "");
+  wait_for(list, first, [](const Job& j) { return j.state == Job::State::running; });
+  CHECK(list.move_to_front(last));
+  CHECK_FALSE(list.move_to_front(first));  // it is running
+  CHECK_FALSE(list.move_to_front(99));
+  CHECK_FALSE(list.start_again(bad));
+  CHECK_FALSE(list.clear(bad));
+  write_file(folder.path() / "go", "");
+  CHECK(wait_for(list, bad, is_over).state == Job::State::failed);
+  CHECK(read_file(folder.path() / "order") == "first\nlast\nbad\n");
+  write_file(folder.path() / "mended", "");
+  CHECK(list.start_again(bad));
+  CHECK(wait_for(list, bad, is_over).state == Job::State::done);
+  CHECK_FALSE(list.start_again(bad));  // it is done
+  CHECK(list.clear(bad));
+  CHECK_FALSE(list.job(bad));
+  CHECK(list.clear({}));
+  CHECK(list.jobs().empty());
+}
+
+TEST_CASE("ended jobs are listed by the next list in the same workspace, with their results") {
+  test::TemporaryFolder folder("jobs");
+  const fs::path program = script(folder.path(), "echo '{\"out\": 7}'\n");
+  const Job job{.title = "drop: a",
+                .words = {"drop", "./a"},
+                .page = "runs/drop-1/edge.png",
+                .out = "runs/drop-1",
+                .kind = "drop",
+                .work = 3};
+  int kept = 0, cleared = 0;
+  {
+    JobList list(program, folder.path(), [] {});
+    kept = list.add(job);
+    Job other = job;
+    other.out = "experiments/one/results/drop-2";
+    other.page = other.out / "edge.png";
+    cleared = list.add(other);
+    const int recording = list.add("recording", {}, "runs/r/report.html", "runs/r");
+    wait_for(list, recording, is_over);
+    CHECK(list.clear(cleared));
+  }
+  // What a file states about places outside of its folder is not used.
+  fs::create_directories(folder.path() / "runs/evil");
+  Json evil = Json::parse(read_file(folder.path() / "runs/drop-1/job.json"));
+  evil["id"] = 50;
+  evil["out"] = "../..";
+  evil["page"] = "/etc/passwd";
+  write_file(folder.path() / "runs/evil/job.json", evil.dump());
+  fs::create_directories(folder.path() / "runs/broken");
+  write_file(folder.path() / "runs/broken/job.json", "{\"id\": ");
+  JobList next(program, folder.path(), [] {});
+  CHECK(next.jobs().size() == 2);
+  const auto j = next.job(kept);
+  REQUIRE(j);
+  CHECK(j->state == Job::State::done);
+  CHECK(j->result["out"] == 7);
+  CHECK(j->page == "runs/drop-1/edge.png");
+  CHECK(j->work == 3);
+  CHECK(j->ended > 1e9);
+  CHECK_FALSE(next.job(cleared));
+  REQUIRE(next.job(50));
+  CHECK(next.job(50)->out == "runs/evil");
+  CHECK(next.job(50)->page == "runs/evil/passwd");
+  CHECK(next.add(job) == 51);
 }

@@ -1,4 +1,4 @@
-#include "server/job_list.h"
+#include "server/jobs/job_list.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -12,6 +12,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "server/jobs/job_archive.h"
 
 namespace faba {
 namespace {
@@ -22,8 +23,6 @@ constexpr double kReportPeriod = 0.2;  // s
 constexpr double kKillDelay = 5;       // s, timeout between SIGINT and SIGKILL
 constexpr int kProgressFd = 3;
 constexpr std::size_t kKept = 100;  // maximum length of the job list
-
-constexpr std::array<const char*, 5> kStates = {"waiting", "running", "done", "failed", "cancelled"};
 
 /// Both ends of a pipe, closed by the destructor.
 struct Pipe {
@@ -84,14 +83,13 @@ std::string last_line(std::string text) {
   return text;
 }
 
-}  // namespace
-
-Json job_json(const Job& j) {
-  return {{"id", j.id},           {"title", j.title}, {"words", j.words},
-          {"page", j.page},       {"out", j.out},     {"state", kStates[std::size_t(j.state)]},
-          {"doing", j.doing},     {"done", j.did},    {"of", j.of},
-          {"seconds", j.seconds}, {"error", j.error}, {"result", j.result}};
+int next_id(const std::vector<Job>& jobs) {
+  int next = 1;
+  for (const Job& j : jobs) next = std::max(next, j.id + 1);
+  return next;
 }
+
+}  // namespace
 
 /// A process of the program with three pipes: standard output, standard error, progress.
 struct JobList::Process {
@@ -140,6 +138,8 @@ JobList::JobList(std::filesystem::path program, std::filesystem::path workspace,
     : program_(std::move(program)),
       workspace_(std::move(workspace)),
       changed_(std::move(changed)),
+      jobs_(kept_jobs(workspace_, kKept)),
+      next_(next_id(jobs_)),
       thread_([this](const std::stop_token& s) { work(s); }) {}
 
 JobList::~JobList() {
@@ -147,22 +147,14 @@ JobList::~JobList() {
   wake_.notify_all();
 }
 
-int JobList::add(std::string title, std::vector<std::string> words, std::filesystem::path page,
-                 std::filesystem::path out) {
+int JobList::add(Job job) {
   int id = 0;
   {
     const std::lock_guard lock(mutex_);
-    id = next_++;
-    Job j;
-    j.id = id;
-    j.title = std::move(title);
-    j.words = std::move(words);
-    j.page = std::move(page);
-    j.out = std::move(out);
-    jobs_.push_back(std::move(j));
-    const auto over = [](const Job& one) { return one.state > Job::State::running; };
+    id = job.id = next_++;
+    jobs_.push_back(std::move(job));
     if (jobs_.size() > kKept)
-      if (const auto oldest = std::find_if(jobs_.begin(), jobs_.end(), over); oldest != jobs_.end())
+      if (const auto oldest = std::find_if(jobs_.begin(), jobs_.end(), is_over); oldest != jobs_.end())
         jobs_.erase(oldest);
   }
   wake_.notify_all();
@@ -170,10 +162,67 @@ int JobList::add(std::string title, std::vector<std::string> words, std::filesys
   return id;
 }
 
+int JobList::add(std::string title, std::vector<std::string> words, std::filesystem::path page,
+                 std::filesystem::path out) {
+  return add(
+      {.title = std::move(title), .words = std::move(words), .page = std::move(page), .out = std::move(out)});
+}
+
+std::vector<Job>::iterator JobList::find(int id) {
+  return std::find_if(jobs_.begin(), jobs_.end(), [id](const Job& j) { return j.id == id; });
+}
+
+bool JobList::move_to_front(int id) {
+  {
+    const std::lock_guard lock(mutex_);
+    const auto is_waiting = [](const Job& j) { return j.state == Job::State::waiting; };
+    const auto it = find(id);
+    if (it == jobs_.end() || !is_waiting(*it)) return false;
+    std::rotate(std::find_if(jobs_.begin(), it, is_waiting), it, it + 1);
+  }
+  changed_();
+  return true;
+}
+
+bool JobList::start_again(int id) {
+  {
+    const std::lock_guard lock(mutex_);
+    const auto it = find(id);
+    if (it == jobs_.end() || !is_over(*it) || it->state == Job::State::done) return false;
+    Job again{.id = id,
+              .title = it->title,
+              .words = it->words,
+              .page = it->page,
+              .out = it->out,
+              .kind = it->kind,
+              .work = it->work,
+              .estimate_s = it->estimate_s,
+              .estimate_measured = it->estimate_measured};
+    jobs_.erase(it);
+    jobs_.push_back(std::move(again));
+  }
+  wake_.notify_all();
+  changed_();
+  return true;
+}
+
+bool JobList::clear(std::optional<int> id) {
+  std::vector<Job> removed;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto goes = [&](const Job& j) { return is_over(j) && (!id || j.id == *id); };
+    std::copy_if(jobs_.begin(), jobs_.end(), std::back_inserter(removed), goes);
+    std::erase_if(jobs_, goes);
+  }
+  for (const Job& j : removed) forget_job(workspace_, j);
+  changed_();
+  return !removed.empty() || !id;
+}
+
 bool JobList::cancel(int id) {
   {
     const std::lock_guard lock(mutex_);
-    const auto it = std::find_if(jobs_.begin(), jobs_.end(), [&](const Job& j) { return j.id == id; });
+    const auto it = find(id);
     if (it == jobs_.end()) return false;
     if (it->state == Job::State::waiting)
       it->state = Job::State::cancelled;
@@ -187,6 +236,13 @@ bool JobList::cancel(int id) {
 std::vector<Job> JobList::jobs() const {
   const std::lock_guard lock(mutex_);
   return jobs_;
+}
+
+std::optional<Job> JobList::job(int id) const {
+  const std::lock_guard lock(mutex_);
+  for (const Job& j : jobs_)
+    if (j.id == id) return j;
+  return {};
 }
 
 void JobList::report(const Job& job) {
@@ -219,6 +275,10 @@ void JobList::work(const std::stop_token& stop) {
       job.state = Job::State::failed;
       job.error = e.what();
     }
+    job.ended = double(
+        std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch())
+            .count());
+    keep_job(workspace_, job);
     report(job);
   }
 }
