@@ -32,6 +32,8 @@ export interface Job {
   of: number;
   seconds: number;
   error: string;
+  /** What the job printed as JSON. */
+  result?: unknown;
 }
 export interface Trouble {
   where: string;

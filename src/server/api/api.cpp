@@ -30,10 +30,12 @@ Api::Api(const Workspace& workspace, JobList& jobs, fs::path pictures, fs::path 
   });
   add_scenario_routes(routes_, lab_);
   add_gallery_routes(routes_, lab_);
+  add_result_routes(routes_, lab_);
   add_run_routes(routes_, lab_);
   add_experiment_routes(routes_, lab_);
   add_folder_routes(routes_, lab_);
   add_job_routes(routes_, lab_);
+  add_track_routes(routes_, lab_);
   add_trash_routes(routes_, lab_);
   add_input_routes(routes_, lab_);
   add_upload_routes(routes_, lab_);

@@ -10,7 +10,9 @@ import * as gallery from './gallery';
 import * as jobs from './jobs';
 import * as lab from './lab';
 import * as own from './own';
+import * as result from './result';
 import * as runs from './runs';
+import * as tracks from './tracks';
 import * as video from './video';
 import * as workbench from './workbench';
 
@@ -27,7 +29,9 @@ const en = {
   ...jobs.en,
   ...lab.en,
   ...own.en,
+  ...result.en,
   ...runs.en,
+  ...tracks.en,
   ...video.en,
   ...workbench.en,
 };
@@ -41,7 +45,9 @@ const pt = {
   ...jobs.pt,
   ...lab.pt,
   ...own.pt,
+  ...result.pt,
   ...runs.pt,
+  ...tracks.pt,
   ...video.pt,
   ...workbench.pt,
 };
