@@ -18,6 +18,8 @@ constexpr double kFinest = 0.1;     // px
 constexpr double kSteps = 65535;    // 16 bits
 constexpr double kTurnParts = 255;  // 0 and 255 both mean heading 0
 
+constexpr std::size_t kMostGridSwarms =
+    8;                               // 16 bits for two planes each; the page repeats its colours earlier
 constexpr int kDensitySquares = 64;  // along the longer side of the box
 
 enum Bit : std::uint16_t { kCells = 1, kFloats = 2, kHeadings = 4, kPicture = 8, kSites = 16 };
@@ -97,32 +99,31 @@ struct SquareGrid {
   }
 };
 
-// Two bit planes for each swarm, of responsive and of unresponsive cells; then the number of cells in the
-// squares of a coarse grid, because several cells may be at one site.
+// Two bit planes for each swarm, of responsive and of unresponsive cells, without the empty ones; then the
+// number of cells in the squares of a coarse grid, because several cells may be at one site.
 void put_sites(std::string& out, const FrameMessage& m, const SquareGrid& sites) {
   const SquareGrid squares(m.box, kDensitySquares);
   const std::size_t bytes = (sites.size() + 7) / 8;
-  std::string planes(2 * m.ends.size() * bytes, '\0');
+  std::vector<std::string> planes(2 * std::min(m.ends.size(), kMostGridSwarms));
   std::vector<std::uint32_t> counts(squares.size());
   const auto scale = float(1 / m.view.m_per_px);
   const auto cx = float(m.view.centre_image.x - m.box.left), cy = float(m.view.centre_image.y - m.box.top);
-  std::size_t i = 0;
-  for (std::size_t s = 0; s < m.ends.size(); ++s) {
-    char* const responsive = planes.data() + 2 * s * bytes;
-    char* const other = responsive + bytes;
+  for (std::size_t s = 0, i = 0; s < m.ends.size(); ++s)
     for (; i < m.ends[s]; ++i) {
       const float x = cx + m.x[i] * scale, y = cy - m.y[i] * scale;
       const std::size_t site = sites.at(x, y);
-      char& byte = (m.response[i] != 0 ? responsive : other)[site / 8];
-      byte = char(std::uint8_t(byte) | (1U << (site % 8)));
+      std::string& plane = planes[2 * (s % kMostGridSwarms) + (m.response[i] != 0 ? 0 : 1)];
+      if (plane.empty()) plane.resize(bytes);
+      plane[site / 8] = char(std::uint8_t(plane[site / 8]) | (1U << (site % 8)));
       ++counts[squares.at(x, y)];
     }
-  }
-  put(out, std::uint16_t(2 * m.ends.size()));
+  unsigned present = 0;
+  for (std::size_t p = 0; p < planes.size(); ++p) present |= unsigned(!planes[p].empty()) << p;
+  put(out, std::uint16_t(planes.size()));
   put(out, std::uint16_t(squares.columns));
   put(out, std::uint16_t(squares.rows));
-  put(out, std::uint16_t(0));
-  out += planes;
+  put(out, std::uint16_t(present));
+  for (const std::string& plane : planes) out += plane;
   put_all(out, std::span<const std::uint32_t>(counts));
 }
 

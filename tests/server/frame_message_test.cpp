@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -124,6 +125,7 @@ TEST_CASE("an occupancy grid has the site of every cell, and the number of cells
   FrameMessage m = message(s, rows, field);
   const std::vector<std::size_t> ends = {200, 500};
   m.ends = ends;
+  std::vector<float> responsive = s.response;
   m.sites = 150;  // of a box of 300 x 200 px: 2 px each
   const std::string b = encode_frame(m);
   CHECK(at<std::uint16_t>(b, 6) == (1 | 16));
@@ -133,6 +135,7 @@ TEST_CASE("an occupancy grid has the site of every cell, and the number of cells
   REQUIRE(grid_rows == 100);
   const std::size_t grid = 48 + 3 * 8 + 2 * 8, bytes = 150 * 100 / 8, planes = grid + 8;
   CHECK(at<std::uint16_t>(b, grid) == 4);
+  CHECK(at<std::uint16_t>(b, grid + 6) == 0b1111);
   const int dc = at<std::uint16_t>(b, grid + 2), dr = at<std::uint16_t>(b, grid + 4);
   CHECK(dc == 64);
   CHECK(dr == 43);  // squares of 300 / 64 px
@@ -148,4 +151,11 @@ TEST_CASE("an occupancy grid has the site of every cell, and the number of cells
   std::uint32_t cells = 0;
   for (int k = 0; k < dc * dr; ++k) cells += at<std::uint32_t>(b, planes + 4 * bytes + std::size_t(k) * 4);
   CHECK(cells == 500);
+
+  // A plane without cells is left out.
+  std::fill(responsive.begin(), responsive.end(), 1.0F);
+  m.response = responsive;
+  const std::string all = encode_frame(m);
+  CHECK(at<std::uint16_t>(all, grid + 6) == 0b0101);
+  CHECK(all.size() == planes + 2 * bytes + std::size_t(dc * dr) * 4);
 }

@@ -87,7 +87,9 @@ export function decodeFrame(buffer: ArrayBuffer, columns: number): Frame {
 
 function takeSites(buffer: ArrayBuffer, take: (bytes: number) => number, { columns, rows }: { columns: number; rows: number }): Sites {
   const head = new DataView(buffer, take(8), 8), planes: Uint8Array[] = [], bytes = Math.ceil((columns * rows) / 8);
-  for (let k = 0; k < head.getUint16(0, true); ++k) planes.push(new Uint8Array(buffer, take(bytes), bytes));
+  // Planes without cells are not in the message.
+  const present = head.getUint16(6, true);
+  for (let k = 0; k < head.getUint16(0, true); ++k) planes.push(present & (1 << k) ? new Uint8Array(buffer, take(bytes), bytes) : new Uint8Array(0));
   const counts = { columns: head.getUint16(2, true), rows: head.getUint16(4, true) }, at = take(counts.columns * counts.rows * 4);
   const cells = new Uint32Array(buffer.slice(at, at + counts.columns * counts.rows * 4));
   return { columns, rows, planes, counts: { ...counts, cells } };

@@ -14,6 +14,7 @@ describe('the wanted number of sites', () => {
     expect(wantedSites(20000, 1, 300)).toBe(0);
     expect(wantedSites(1e5, 1, 2000)).toBe(0);
     expect(wantedSites(1e6, 1, 2000)).toBeGreaterThan(0);
+    expect(wantedSites(1e5, 1, 992)).toBe(992);
     expect(wantedSites(1e5, 4, 700)).toBe(0);
   });
 });

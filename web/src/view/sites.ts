@@ -5,6 +5,7 @@ import type { Box, Camera } from './camera';
 import type { Density } from './density';
 
 const kGridFrom = 20000; // cells; smaller swarms have small messages, and show the headings of their cells
+const kPositionBits = 33, kWorth = 0.5; // bits of a cell with its position; the grid has to be half as large
 const kStep = 32; // sites; the number changes in steps, not with every step of the zoom
 
 /**
@@ -12,8 +13,8 @@ const kStep = 32; // sites; the number changes in steps, not with every step of 
  * positions of the cells are smaller than the grid.
  */
 export function wantedSites(cells: number, swarms: number, along: number): number {
-  const sites = Math.ceil(along / kStep) * kStep, bits = 2 * swarms * sites * sites;
-  return cells > kGridFrom && bits < 16 * cells ? sites : 0;
+  const sites = Math.ceil(along / kStep) * kStep, bits = swarms * sites * sites; // most swarms have one plane that is not empty
+  return cells > kGridFrom && bits < kPositionBits * cells * kWorth ? sites : 0;
 }
 
 export interface Canvas {
