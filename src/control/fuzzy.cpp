@@ -95,19 +95,24 @@ Schema<Fuzzy::Params> Fuzzy::schema() {
             .min = 0,
             .max = 1e5,
             .doc = "Distance up to which the swarm is near",
-            .source = "assumed (A9)"})
+            .source = "assumed (A9)",
+            .title = "Near distance"})
       .add("far_px", &Params::far_px,
            {.unit = "px",
             .min = 0,
             .max = 1e5,
             .doc = "Distance from which the swarm is far",
-            .source = "assumed (A9)"})
-      .add("set", &Params::set, {.doc = "Custom fuzzy states that replace near and far: [[controller.set]]"})
+            .source = "assumed (A9)",
+            .title = "Far distance"})
+      .add("set", &Params::set,
+           {.doc = "Custom fuzzy states that replace near and far: [[controller.set]]",
+            .title = "Fuzzy states"})
       .add("direction", &Params::direction,
            {.doc = "Direction of the command: vector: straight to the setpoint; axis-sign: sign of each "
                    "component; per-axis: one fuzzy law per axis",
             .source = "assumed vector: the rules of the thesis define a strength only (A9)",
-            .choices = {"vector", "axis-sign", "per-axis"}})
+            .choices = {"vector", "axis-sign", "per-axis"},
+            .title = "Direction of the command"})
       .check([](const Params& p) -> std::string {
         if (p.near_px <= p.far_px) return {};
         return fmt::format("near_px = {:g} must not be larger than far_px = {:g}", p.near_px, p.far_px);

@@ -35,7 +35,11 @@ class GradientFeedback final : public Controller {
                      "in each integral time",
               .source = "assumed"})
         .add("most_px", &Params::max_lead_px,
-             {.unit = "px", .min = 0, .max = 1e5, .doc = "Maximum distance of the zero from the setpoint"})
+             {.unit = "px",
+              .min = 0,
+              .max = 1e5,
+              .doc = "Maximum distance of the zero from the setpoint",
+              .title = "Maximum displacement of the zero"})
         .include(&Params::trap, Trap::Params::schema())
         .validity(
             "The response is limited by the relaxation of the swarm in the trap, which takes about the width "

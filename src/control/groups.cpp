@@ -29,7 +29,11 @@ class EstimatorGroups final : public Estimator {
         .add("count", &Params::count,
              {.min = 0, .max = 10, .doc = "Number of groups; 0: determined in every frame", .source = "H6"})
         .add("most", &Params::most,
-             {.min = 1, .max = 10, .doc = "Maximum number of groups when count is 0", .source = "assumed"})
+             {.min = 1,
+              .max = 10,
+              .doc = "Maximum number of groups when count is 0",
+              .source = "assumed",
+              .title = "Maximum number of groups"})
         .add("separation", &Params::separation,
              {.min = 1,
               .max = 100,

@@ -69,7 +69,11 @@ Schema<Proportional::Params> Proportional::schema() {
       .add("delay_frames", &Params::delay_frames,
            {.min = 0, .max = 1000, .doc = "Design delay in frames; default: that of the camera"})
       .add("hold_frames", &Params::hold_frames,
-           {.min = 1, .max = 100, .doc = "Frames for which a cell keeps its velocity", .source = "A3: 2"})
+           {.min = 1,
+            .max = 100,
+            .doc = "Frames for which a cell keeps its velocity",
+            .source = "A3: 2",
+            .title = "Frames per cell velocity"})
       .add("actuation", &Params::actuation,
            {.doc = "Method to reduce the drift velocity. magnitude: a weaker field; duty: full field, "
                    "reversed in a fraction of the frames",
@@ -87,7 +91,8 @@ Schema<Proportional::Params> Proportional::schema() {
             .doc = "Time by which the position is predicted in addition to the delay, about the time that "
                    "cells need "
                    "to turn; default: no prediction",
-            .source = "theory F2: ln(2 kappa) / w_B"})
+            .source = "theory F2: ln(2 kappa) / w_B",
+            .title = "Prediction time"})
       .validity(
           "The law is linear, for an integrator plant. Reorientation that takes longer than a frame adds a "
           "delay that is compensated only with `lead`.");

@@ -89,6 +89,14 @@ FileLock::~FileLock() {
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
+bool FileLock::held(const std::filesystem::path& file) {
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  if (descriptor < 0) return false;
+  const bool other = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(descriptor);
+  return other;
+}
+
 void FileLock::complete() {
   if (::unlink(file_.c_str()) != 0) fail(file_, "cannot be removed");
   ::close(std::exchange(descriptor_, -1));

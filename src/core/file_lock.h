@@ -19,6 +19,8 @@ class FileLock {
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&& other) noexcept;
   ~FileLock();
+  /// Whether a process, also this one, holds such a file. False if there is no file.
+  static bool held(const std::filesystem::path& file);
   /// Removes the file: the work that it protects is complete.
   void complete();
 

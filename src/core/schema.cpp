@@ -194,6 +194,7 @@ Json type_json(const char* type, const FieldInfo& f, const Json& fallback) {
     j["type"] = {"number", "string"};
   else
     j["type"] = type;
+  if (!f.title.empty()) j["title"] = f.title;
   if (!f.doc.empty()) j["description"] = f.doc;
   if (!f.unit.empty()) j["x-unit"] = f.unit;
   if (!f.choices.empty()) j["enum"] = f.choices;

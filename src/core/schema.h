@@ -24,11 +24,13 @@ enum class Role : std::size_t {
   turn,      ///< coil: rotation about z, rad
   strength,  ///< coil: factor on its field
   ambient,   ///< coil system: field that the coils do not produce, T, world frame
-  coupling   ///< agent model: acts only as a factor of the field; observable as the turning rate of cells
+  coupling,  ///< agent model: acts only as a factor of the field; observable as the turning rate of cells
+  speed      ///< agent model: the number that sets how fast cells move; in forms with few inputs
 };
 /// Role in the JSON Schema of a parameter.
 Role role_of(const Json& described);
-inline constexpr std::array kRoleWords = {"", "position", "axis", "turn", "strength", "ambient", "coupling"};
+inline constexpr std::array kRoleWords = {"",         "position", "axis",     "turn",
+                                          "strength", "ambient",  "coupling", "speed"};
 
 /// Description of one parameter. Numbers with a unit may be given as "186 um/s"; a bare number is in `unit`.
 struct FieldInfo {
@@ -40,6 +42,7 @@ struct FieldInfo {
   std::vector<std::string> choices = {};  ///< allowed words, in the order of the enum
   std::string old_key = {};               ///< former name of the key, which is still read
   Role role = Role::none;
+  std::string title = {};  ///< name in forms, for a key that misleads; empty: forms make it from the key
   /// Argument of schema(context) for types whose schema depends on something, such as the registry of the
   /// parts that a table may name.
   std::shared_ptr<const void> context = {};

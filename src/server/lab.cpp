@@ -11,6 +11,7 @@
 #include "core/file.h"
 #include "server/access.h"
 #include "server/api/api.h"
+#include "server/experiments/experiment_store.h"
 #include "server/live_lab.h"
 #include "server/page_message.h"
 #include "server/web_server.h"
@@ -88,6 +89,7 @@ class Pages {
     }
   }
   void jobs_changed() { broadcast(jobs_message()); }
+  void tell(const Json& news) { broadcast(news.dump()); }
 
  private:
   void carry_out(const PageMessage& m, const PageSocketRef& s) {
@@ -132,34 +134,48 @@ class Pages {
 
   // A separate process makes the recording from the recorded events: the live run does not wait for it.
   void save(const PageMessage& m, const LiveLab::Done& done) {
-    std::string slug;
-    for (const char c : m.name)
-      if (std::isalnum(static_cast<unsigned char>(c)) || c == '-' || c == '_')
-        slug += c;
-      else if (!slug.empty() && slug.back() != '-')
-        slug += '-';
-    if (slug.empty()) slug = "lab";
-    slug.resize(std::min<std::size_t>(slug.size(), 60));
     lab_.recorded(
-        [this, slug, title = m.name, as_seen = m.as_seen](Scenario s, const std::string& state_hash) {
-          if (!title.empty()) s.params.title = title;
-          if (as_seen) s.record.as_seen = true;
-          const fs::path runs = workspace_.root() / "runs";
-          fs::create_directories(runs);
-          fs::path dir = runs / slug;
-          Json answer = Json::object();
-          if (fs::exists(dir) || fs::exists(dir.string() + ".toml")) answer["taken"] = slug;
-          for (int i = 2; fs::exists(dir) || fs::exists(dir.string() + ".toml"); ++i)
-            dir = runs / fmt::format("{}-{}", slug, i);
-          const fs::path scene = dir.string() + ".toml", out = fs::relative(dir, workspace_.root());
-          write_file(scene, to_toml(s.resolved()));
-          jobs_.add(fmt::format("{} ({})", dir.filename().string(), state_hash),
-                    {"run", fs::relative(scene, workspace_.root()).string(), "--out", out.string(), "--json"},
-                    out / "report.html", out);
-          answer["name"] = dir.filename().string();
-          return answer;
-        },
+        [this, m](const Scenario& s, const std::string& state_hash) { return record(m, s, state_hash); },
         done);
+  }
+  Json record(const PageMessage& m, Scenario s, const std::string& state_hash) {
+    if (!m.name.empty()) s.params.title = m.name;
+    if (m.as_seen) s.record.as_seen = true;
+    const bool up_to_now = cut(s, m);
+    std::string slug = safe_name(m.name);
+    if (slug.empty()) slug = "lab";
+    const fs::path runs = workspace_.inside("runs");
+    fs::create_directories(runs);
+    const auto used = [](const fs::path& dir) {
+      return fs::exists(dir) || fs::exists(dir.string() + ".toml");
+    };
+    fs::path dir = runs / slug;
+    Json answer = Json::object();
+    if (used(dir)) answer["taken"] = slug;
+    for (int i = 2; used(dir); ++i) dir = runs / fmt::format("{}-{}", slug, i);
+    const fs::path scene = dir.string() + ".toml", out = fs::relative(dir, workspace_.root());
+    write_file(scene, to_toml(s.resolved()));
+    const std::string name = dir.filename().string();
+    jobs_.add(up_to_now ? fmt::format("{} ({})", name, state_hash) : name,
+              {"run", fs::relative(scene, workspace_.root()).string(), "--out", out.string(), "--json"},
+              out / "report.html", out);
+    answer["name"] = name;
+    return answer;
+  }
+  // The part of the run that a page asked for; returns whether it ends now. The recording starts at 0 s in
+  // any case: a part is simulated as the run was.
+  static bool cut(Scenario& s, const PageMessage& m) {
+    const std::uint64_t now = s.frames();
+    if (m.to) s.params.duration = std::min(*m.to, s.params.duration);
+    s.record.from = m.from;
+    s.record.to.reset();
+    const FrameRange part = s.recorded_frames();
+    if (part.first >= part.end)
+      throw Error(Errc::usage, "from",
+                  fmt::format("{:g} s must be before the end of the recorded part at {:g} s", m.from,
+                              s.params.duration));
+    std::erase_if(s.events, [&](const Event& e) { return e.frame >= part.end; });
+    return part.end == now;
   }
 
   std::uint64_t steering() const {
@@ -195,7 +211,7 @@ class Pages {
 }  // namespace
 
 void serve_lab(const LabOptions& o) {
-  const Workspace workspace(o.workspace, o.scenes);
+  const Workspace workspace(o.workspace, o.scenes, o.allowed);
   const PrivateFolder folder;
   WebServer server(o.port, folder.path());
   const Access access(random_token(), server.port());
@@ -221,7 +237,7 @@ void serve_lab(const LabOptions& o) {
     const LiveRun check(d, seed.value_or(1), parts, pool);
     live.start(d, seed, [](const Json&) {});
   }
-  Api api(workspace, jobs, folder.path(), o.pages);
+  Api api(workspace, jobs, folder.path(), o.pages, [&](const Json& news) { watchers.tell(news); });
 
   std::jthread watch([&](const std::stop_token& s) {
     while (!s.stop_requested() && !(o.stop && o.stop->load()))

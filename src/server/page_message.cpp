@@ -24,8 +24,9 @@ constexpr std::array<std::pair<const char*, PageMessage::Do>, 11> kWords = {{
     {"save", PageMessage::Do::save},
     {"ping", PageMessage::Do::ping},
 }};
-constexpr int kDeepest = 32;         // scenarios have five levels
 constexpr double kMostSites = 4096;  // more than the pixels of a screen
+constexpr int kDeepest = 32;         // scenarios have five levels
+constexpr double kLongestRun = 1e6;  // s
 constexpr std::uint64_t kMostSeed = 1ull << 53;
 
 Error bad(const std::string& where, const std::string& what) { return {Errc::usage, where, what}; }
@@ -89,6 +90,8 @@ PageMessage parse_page_message(std::string_view text) {
       if (!j.contains("name") || !j["name"].is_string()) throw bad("name", "must be a string");
       m.name = j["name"];
       m.as_seen = j.value("as_seen", Json(false)) == true;
+      if (j.contains("from")) m.from = number(j, "from", 0, kLongestRun);
+      if (j.contains("to")) m.to = number(j, "to", 0, kLongestRun);
       break;
     case Do::pause:
     case Do::go:

@@ -21,6 +21,8 @@ struct PageMessage {
   int sites = 0;                      ///< look, see FrameMessage
   std::string name;                   ///< save
   bool as_seen = false;               ///< save
+  double from = 0;                    ///< save, s
+  std::optional<double> to;           ///< save, s; empty: now
 };
 
 /// Parses any bytes. Throws Error(usage) if they are not a valid message.

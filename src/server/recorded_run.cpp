@@ -53,6 +53,8 @@ Json describe_run(const std::filesystem::path& dir) {
     populations.push_back({{"begin", at}, {"end", at + n}});
     at += n;
   }
+  double from = 0;
+  if (const H5Table times = f.table("t_s"); times.rows() > 0) times.read<double>(0, {&from, 1});
   const double every = f.number_attribute("/", "every_frames"), fps = f.number_attribute("/", "fps");
   return {
       {"scene",
@@ -68,6 +70,7 @@ Json describe_run(const std::filesystem::path& dir) {
         {"setpoints", Json::array()}}},
       {"populations", populations},
       {"frames", PositionTable(f).rows()},
+      {"from_s", from},
       {"rate", fps / every}};
 }
 

@@ -7,7 +7,8 @@
 
 namespace faba {
 
-/// View, outline, swarms and number of recorded frames of a run, for the page. Throws Error(input) for runs
+/// View, outline, swarms, number and rate of the recorded frames, and the time of the first one, of a run, for
+/// the page. Throws Error(input) for runs
 /// without tracks.
 Json describe_run(const std::filesystem::path& dir);
 

@@ -12,10 +12,6 @@ Json body_of(const WebRequest& r);
 /// A text that is not empty. Throws Error(usage) with the key.
 std::string text_of(const Json& asked, const char* key);
 
-/// A list of numbers such as "0.5, -0.5", as the page sent it. Throws Error(usage) with the key if a number
-/// is missing.
-std::string numbers_of(const Json& asked, const char* key);
-
 /// The name of an imported file in messages, from `name`, without its folder: files that the scenario refers
 /// to are not searched there. "file" without a name.
 std::string file_name_of(const Json& asked);

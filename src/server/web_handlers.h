@@ -19,7 +19,8 @@ struct WebRequest {
   std::string path;                          ///< decoded, without the query
   std::map<std::string, std::string> query;  ///< decoded, without the token
   std::string body;                          ///< up to WebServer::kMostBody bytes
-  std::filesystem::path upload;  ///< body of a request to /api/upload, in a file that is removed afterwards
+  std::filesystem::path
+      upload;  ///< body of a request to /api/upload and below, in a file that is removed afterwards
 };
 
 struct WebResponse {

@@ -133,7 +133,7 @@ class Connection final : public std::enable_shared_from_this<Connection> {
       return refuse(405, "method not allowed; use GET, HEAD, POST or DELETE");
     // Replaces the token by the cookie, so that the token does not remain in the address bar.
     if (verdict.by_token && target_->path == "/" && method == "GET") return exchange();
-    if (target_->path == "/api/upload")
+    if (target_->path == "/api/upload" || target_->path.starts_with("/api/upload/"))
       return method == "POST" ? take_file() : refuse(405, "method not allowed; use POST");
     auto parser = std::make_shared<http::request_parser<http::string_body>>(std::move(*head_));
     parser->body_limit(WebServer::kMostBody);

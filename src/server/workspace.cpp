@@ -1,11 +1,14 @@
 #include "server/workspace.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
 #include "app/recording/run_lock.h"
 #include "app/recording/session.h"
 #include "core/error.h"
+#include "server/gallery_index.h"
 #include "study/data/run_video.h"
 
 namespace faba {
@@ -13,8 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::size_t kLongest = 1000;
-constexpr std::size_t kMostFiles = 500;
+constexpr std::size_t kMostFiles = 500, kMostRuns = 5000;
 constexpr std::array<const char*, 6> kVideos = {".mp4", ".avi", ".mkv", ".mov", ".webm", ".tif"};
+constexpr std::array<const char*, 8> kPictures = {".png",  ".jpg", ".jpeg", ".tif",
+                                                  ".tiff", ".pgm", ".ppm",  ".bmp"};
+constexpr const char* kPictureFolder = "pictures";
 
 Error out_of_reach(std::string_view name) {
   return {Errc::usage, std::string(name.substr(0, 80)), "is outside the folder in which the lab was started"};
@@ -30,33 +36,32 @@ std::vector<fs::path> sorted_files(const fs::path& folder, std::string_view exte
   return found;
 }
 
+// Whether an absolute path without links is in a folder, and neither the file nor a folder on the way is
+// hidden.
+bool lies_below(const fs::path& folder, const fs::path& file) {
+  if (std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first != folder.end())
+    return false;
+  const fs::path below = file.lexically_relative(folder);
+  return std::none_of(below.begin(), below.end(),
+                      [](const fs::path& part) { return part != "." && part.string().starts_with('.'); });
+}
+
 bool holds_run(const fs::path& dir) {
   std::error_code ec;
   return fs::is_regular_file(dir / run_files::kManifest, ec) &&
          fs::is_regular_file(dir / run_files::kScenario, ec);
 }
 
-// One entry of the list of coil systems: its file, the number of its coils (0 if the file is not readable),
-// and whether it has default currents.
-Json rig_card(const fs::path& file) {
-  Json card = {{"file", "rigs/" + file.filename().string()}, {"coils", 0}, {"currents", false}};
-  try {
-    const Document d = read_toml(file);
-    const auto coils = d.root.find("coil");
-    if (coils == d.root.end() || !coils->is_array()) return card;
-    card["coils"] = coils->size();
-    card["currents"] =
-        std::any_of(coils->begin(), coils->end(), [](const Json& c) { return c.contains("current"); });
-  } catch (const Error&) {
-    return card;  // the job reports the error
-  }
-  return card;
-}
-
 }  // namespace
 
-Workspace::Workspace(const fs::path& root, const fs::path& scenes) : root_(fs::canonical(root)) {
+Workspace::Workspace(const fs::path& root, const fs::path& scenes, const std::vector<fs::path>& allowed)
+    : root_(fs::canonical(root)) {
   gallery_ = fs::is_directory(root_ / "scenes") ? root_ / "scenes" : scenes;
+  for (const fs::path& folder : allowed) {
+    std::error_code ec;
+    if (!fs::is_directory(folder, ec)) throw Error(Errc::usage, folder.string(), "is not a folder");
+    allowed_.push_back(fs::canonical(folder));
+  }
 }
 
 fs::path Workspace::inside(std::string_view name) const {
@@ -69,14 +74,30 @@ fs::path Workspace::inside(std::string_view name) const {
   // Links are resolved before the check.
   std::error_code ec;
   fs::path real = fs::weakly_canonical(root_ / asked, ec);
-  const auto [at, _] = std::mismatch(root_.begin(), root_.end(), real.begin(), real.end());
-  if (ec || at != root_.end()) throw out_of_reach(name);
+  if (ec || !lies_below(root_, real)) throw out_of_reach(name);
   return real;
 }
 
-fs::path Workspace::existing(std::string_view name) const {
-  fs::path path = inside(name);
+bool Workspace::may_read(const fs::path& file) const {
   std::error_code ec;
+  const fs::path real = fs::weakly_canonical(file, ec);
+  if (ec) return false;
+  return lies_below(root_, real) ||
+         std::any_of(allowed_.begin(), allowed_.end(),
+                     [&](const fs::path& folder) { return lies_below(folder, real); });
+}
+
+std::string Workspace::name_of(const fs::path& file) const {
+  std::error_code ec;
+  const fs::path real = fs::weakly_canonical(file, ec);
+  return lies_below(root_, real) ? real.lexically_relative(root_).string() : real.string();
+}
+
+fs::path Workspace::existing(std::string_view name) const {
+  std::error_code ec;
+  const bool absolute = name.starts_with('/') && name.size() <= kLongest && name.find('\0') == name.npos;
+  if (absolute && !may_read(name)) throw out_of_reach(name);
+  fs::path path = absolute ? fs::weakly_canonical(name, ec) : inside(name);
   if (!fs::is_regular_file(path, ec) && !fs::is_directory(path, ec))
     throw Error(Errc::input, std::string(name), "file not found in the folder in which the lab was started");
   return path;
@@ -96,27 +117,69 @@ std::string Workspace::in_page(const std::string& where) const {
 
 void Workspace::check_files(const Json& scenario) const {
   constexpr std::array<std::string_view, 2> kNaming = {"file", "background"};  // keys with a file name
-  const auto lies_below = [](const fs::path& folder, const fs::path& file) {
-    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
-  };
-  const fs::path project = gallery_.parent_path();  // scenes refer to ../rigs
   for (const auto& [key, value] : scenario.items()) {
     if (value.is_structured()) check_files(value);
     if (!value.is_string() || std::find(kNaming.begin(), kNaming.end(), key) == kNaming.end()) continue;
     const std::string name = value.get<std::string>();
     if (name.empty()) continue;  // a resolved scenario has every key: "" means no file
-    // Search order of a scenario: its folder, then the working directory.
-    std::error_code ec;
-    const bool beside = fs::exists(gallery_ / name, ec);
-    const fs::path real = fs::weakly_canonical((beside ? gallery_ : root_) / name, ec);
-    if (ec || (!lies_below(root_, real) && (project.empty() || !lies_below(project, real))))
-      throw out_of_reach(name);
-    if (fs::exists(real, ec) && !fs::is_regular_file(real, ec))
-      throw Error(Errc::usage, name, "is not a file");
+    (void)scenario_file(name);
   }
 }
 
-std::vector<fs::path> Workspace::scenes() const { return sorted_files(gallery_, ".toml"); }
+fs::path Workspace::scenario_file(const std::string& name) const {
+  const auto lies_below = [](const fs::path& folder, const fs::path& file) {
+    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
+  };
+  const fs::path project = gallery_.parent_path();  // scenes refer to ../rigs
+  // Search order of a scenario: its folder, then the working directory.
+  std::error_code ec;
+  const bool beside = fs::exists(gallery_ / name, ec);
+  fs::path real = fs::weakly_canonical((beside ? gallery_ : root_) / name, ec);
+  if (ec || (!lies_below(root_, real) && (project.empty() || !lies_below(project, real))))
+    throw out_of_reach(name);
+  if (fs::exists(real, ec) && !fs::is_regular_file(real, ec)) throw Error(Errc::usage, name, "is not a file");
+  return real;
+}
+
+std::vector<std::string> Workspace::pictures() const {
+  std::vector<std::string> found;
+  std::error_code ec;
+  for (const char* folder : {".", kPictureFolder, "videos", "data"})
+    for (const fs::directory_entry& e : fs::directory_iterator(root_ / folder, ec))
+      if (has_video_name(e.path()) && may_read(e.path()) && found.size() < kMostFiles)
+        found.push_back(name_of(e.path()));
+  std::sort(found.begin(), found.end());
+  for (const std::string& run : runs()) {
+    try {
+      if (has_camera_video(root_ / "runs" / run)) found.push_back("runs/" + run);
+    } catch (const Error&) {
+      continue;  // damaged or incomplete
+    }
+  }
+  return found;
+}
+
+std::string Workspace::keep_picture(const fs::path& file, const std::string& name) const {
+  const fs::path wanted = fs::path(name).filename();
+  const fs::path folder = inside(fmt::format("{}/{}", kPictureFolder, wanted.string())).parent_path();
+  fs::create_directories(folder);
+  for (int i = 1;; ++i) {
+    const std::string free =
+        i == 1 ? wanted.string()
+               : fmt::format("{}-{}{}", wanted.stem().string(), i, wanted.extension().string());
+    std::error_code ec;
+    if (fs::copy_file(file, folder / free, ec)) return fmt::format("{}/{}", kPictureFolder, free);
+    if (!fs::exists(fs::symlink_status(folder / free)))
+      throw Error(Errc::internal, fmt::format("{}/{}", kPictureFolder, free),
+                  "the picture cannot be stored: " + ec.message());
+  }
+}
+
+std::vector<fs::path> Workspace::scenes() const {
+  std::vector<fs::path> found = sorted_files(gallery_, ".toml");
+  std::erase_if(found, [](const fs::path& f) { return f.filename() == kGalleryIndex; });
+  return found;
+}
 
 fs::path Workspace::scene(std::string_view name) const {
   for (const fs::path& file : scenes())
@@ -136,37 +199,16 @@ std::vector<std::string> Workspace::runs() const {
   std::sort(found.rbegin(), found.rend());
   std::vector<std::string> names;
   for (auto& [_, name] : found)
-    if (names.size() < kMostFiles) names.push_back(std::move(name));
+    if (names.size() < kMostRuns) names.push_back(std::move(name));
   return names;
 }
 
-Json Workspace::files() const {
-  Json videos = Json::array(), studies = Json::array(), rigs = Json::array();
-  for (const std::string& run : runs()) {
-    try {
-      if (has_camera_video(root_ / "runs" / run)) videos.push_back("runs/" + run);
-    } catch (const Error&) {
-      continue;  // damaged or incomplete
-    }
-  }
-  std::error_code ec;
-  for (const char* folder : {".", "videos", "data"})
-    for (const char* kind : kVideos)
-      for (const fs::path& f : sorted_files(root_ / folder, kind))
-        videos.push_back(fs::relative(f, root_, ec).string());
-  for (const fs::path& f : sorted_files(root_ / "studies", ".toml")) {
-    try {
-      const Document d = read_toml(f);
-      const char* verb = d.root.contains("scene") && d.root["scene"].is_string() ? "compare-controllers"
-                         : d.root.contains("model")                              ? "identify"
-                                                                                 : "activity";
-      studies.push_back({{"file", "studies/" + f.filename().string()}, {"verb", verb}});
-    } catch (const Error&) {
-      continue;  // not a study, or incomplete
-    }
-  }
-  for (const fs::path& f : sorted_files(root_ / "rigs", ".toml")) rigs.push_back(rig_card(f));
-  return {{"videos", videos}, {"studies", studies}, {"rigs", rigs}};
+bool has_video_name(const fs::path& file) {
+  std::string extension = file.extension();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  return std::ranges::find(kVideos, extension) != kVideos.end() ||
+         std::ranges::find(kPictures, extension) != kPictures.end();
 }
 
 }  // namespace faba

@@ -1,4 +1,5 @@
-// A live lab in a temporary folder, and a browser with its page, for lab_test.mjs.
+// A live lab in a temporary folder, and a browser with its page, for lab_test.mjs and gallery_test.mjs. With --www FOLDER the page is
+// read from a folder, for development.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -8,7 +9,7 @@ import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { serve } from '../../bench/lab_client.mjs';
 
-const option = (name) => {
+export const option = (name) => {
   const i = process.argv.indexOf(`--${name}`);
   return i < 0 ? null : resolve(process.argv[i + 1]);
 };

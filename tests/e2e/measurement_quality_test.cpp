@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/e2e/program.h"
+#include "tests/rendered_burst.h"
 #include "tests/vision/ruler_pictures.h"
 #include "vision/files/picture.h"
 
@@ -96,6 +97,24 @@ TEST_CASE("activity: the onset of a response is not before the reversal of the f
   CHECK(video["onset_s"].get<double>() < 1.2);
   REQUIRE(video.contains("onset_ci90"));
   CHECK(video["onset_ci90"][0].get<double>() >= 1);
+}
+
+TEST_CASE("activity: a maximum only where something moves in one direction") {
+  const TestFolder f;
+  write_rendered(burst(60), f.path / "one-way.avi");
+  write_rendered(burst(360), f.path / "all-ways.avi");
+  const auto maximum = [&](const char* name) {
+    const Called c = faba_in(f.path, std::string("activity ") + name + " --json");
+    REQUIRE_MESSAGE(c.exit == 0, c.err);
+    const auto video = c.json()["videos"][0];
+    CHECK(video["gaussian"]["good"].get<bool>() == video["maximum_s"].is_number());
+    return video["maximum_s"];
+  };
+  const auto one_way = maximum("one-way.avi");
+  REQUIRE(one_way.is_number());
+  CHECK(std::fabs(one_way.get<double>() - 1.5) < 0.05);
+  CHECK(maximum("all-ways.avi").is_null());
+  CHECK(faba_in(f.path, "activity all-ways.avi").out.find("maximum at") == std::string::npos);
 }
 
 TEST_CASE("track: faint cells in a coded video are not counted several times, or the quality is not good") {

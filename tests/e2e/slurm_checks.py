@@ -101,16 +101,15 @@ def kill_node(test, cluster):
 def kill_controller(test, cluster):
     out = "kill-controller"
     command = ("compare-controllers", "controllers.toml", "--quiet", "--out", out, "--engine", "slurm", "--workers", 3)
-    for size in (100, 2000):
-        run = test.start(*command)
-        test.wait_for_results(run, out, size)
-        cluster.kill_controller()
-        time.sleep(1)
-        run.send_signal(signal.SIGTERM)
-        run.wait()
-        cluster.start_controller()
-        time.sleep(1)
-        cluster.resume_nodes()
-    done = test.faba(*command)
+    with cluster.administrator():
+        for size in (100, 2000):
+            run = test.start(*command)
+            test.wait_for_results(run, out, size)
+            cluster.kill_controller()
+            time.sleep(1)
+            run.send_signal(signal.SIGTERM)
+            run.wait()
+            cluster.start_controller()
+        done = test.faba(*command)
     test.check(done.returncode == 0, f"slurm: controller killed twice, command started again {done.stderr}")
     test.equal("controllers", out, "slurm, controller killed")

@@ -1,12 +1,14 @@
 """A Slurm cluster of three nodes on this machine, for tests: one controller and three slurmd, as root, without an accounting
 database. The processes end with stop()."""
 
+import contextlib
 import os
 import pathlib
 import shutil
 import signal
 import socket
 import subprocess
+import threading
 import time
 
 NODES = ("node1", "node2", "node3")
@@ -96,10 +98,24 @@ class Cluster:
             time.sleep(0.1)
         raise RuntimeError("the nodes of the Slurm cluster do not become idle")
 
-    def resume_nodes(self):
-        """What an administrator does after a failure of the controller."""
-        for node in NODES:
-            subprocess.run(["scontrol", "update", f"nodename={node}", "state=resume"], capture_output=True)
+    @contextlib.contextmanager
+    def administrator(self):
+        """Resumes drained nodes meanwhile. A node whose job cannot be launched because the controller dies at this moment is drained,
+        possibly long after the failure; with all three nodes drained, jobs would wait for ever."""
+        done = threading.Event()
+
+        def resume():
+            while not done.wait(2):
+                for node in NODES:
+                    subprocess.run(["scontrol", "update", f"nodename={node}", "state=resume"], capture_output=True)
+
+        thread = threading.Thread(target=resume)
+        thread.start()
+        try:
+            yield
+        finally:
+            done.set()
+            thread.join()
 
     def daemon(self, name):
         """Process id of slurmctld, or of the slurmd of a node."""
@@ -135,6 +151,11 @@ class Cluster:
                 time.sleep(0.1)
             else:
                 os.kill(pid, signal.SIGKILL)
+
+
+def state():
+    """Jobs and nodes, for messages."""
+    return "".join(subprocess.run(words, capture_output=True, text=True).stdout for words in (["squeue", "--array"], ["sinfo", "-N", "-l"]))
 
 
 def processes():

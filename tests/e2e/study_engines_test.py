@@ -8,6 +8,7 @@ GNU parallel, or the slurmd of a node) what started it. Engines whose packages a
     study_engines_test.py --program build/faba [--kills] [--only NAME]..."""
 
 import argparse
+import faulthandler
 import json
 import os
 import pathlib
@@ -17,6 +18,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
@@ -28,6 +30,7 @@ OUTPUTS = ("identify.json", "identify.html", "best.toml", "background.png", "cal
 VERB = {"identify": "identify", "calibration": "calibrate", "controllers": "compare-controllers"}
 VIDEOS = ("film/video.avi", "film-2/video.avi", "film-3/video.avi")
 TRACK = ("track", *VIDEOS, "--um-per-px", "1.2", "--out", "tracks.csv", "--report", "tracks.html", "--quiet")
+TIME_LIMIT = 2400  # s, of the whole test: eight times its duration with --kills on two cores
 ACTIVITY = ("activity", *VIDEOS, "--reversal", "0.6 s")
 
 
@@ -319,6 +322,20 @@ def dask_without_workers(test):
     scheduler.wait()
 
 
+def limit_time(folder):
+    """Ends a test that waits for something that never comes, with what it waits for."""
+    time.sleep(TIME_LIMIT)
+    faulthandler.dump_traceback()
+    print(slurm_cluster.state())
+    for log in pathlib.Path(folder).glob("*/attempts.csv"):
+        print(log, *log.read_text().splitlines()[-20:], sep="\n  ")
+    print(f"FAILED: not complete after {TIME_LIMIT} s", flush=True)
+    for process in slurm_cluster.processes():
+        if str(folder) in slurm_cluster.command(process) + slurm_cluster.environment(process):
+            os.kill(process, signal.SIGKILL)
+    os._exit(1)
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--program", required=True, type=pathlib.Path)
@@ -328,6 +345,7 @@ def main():
     wanted = lambda name: not options.only or name in options.only
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
         test = Test(options.program.resolve(), folder)
+        threading.Thread(target=limit_time, args=(folder,), daemon=True).start()
         test.write_studies()
         test.write_controllers(60, "3 s")
         test.videos_in_one_process()

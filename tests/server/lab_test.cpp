@@ -4,7 +4,6 @@
 #include <doctest/doctest.h>
 
 #include <fstream>
-#include <future>
 #include <thread>
 
 #include "core/error.h"
@@ -12,73 +11,15 @@
 #include "core/toml.h"
 #include "server/web_server.h"
 #include "tests/server/raw_client.h"
-#include "tests/temporary_folder.h"
+#include "tests/server/served_lab.h"
 
 using namespace faba;
 using test::RawClient;
+using test::Served;
 using test::status_of;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// A lab server, stopped by the destructor.
-class Served {
- public:
-  Served() : folder_("lab") {
-    fs::create_directories(folder_.path() / "scenes");
-    write_file(
-        folder_.path() / "scenes/one.toml",
-        "# A small one.\ntitle = 'One'\n[arena]\ntype = 'drop'\nradius_px = 100\n[[swarm]]\ncount = 10\n");
-    write_file(folder_.path() / "secret.txt", "confidential content");
-    std::promise<void> ready;
-    LabOptions o;
-    o.workspace = folder_.path();
-    o.program = FABA_PROGRAM;
-    o.threads = 1;
-    o.stop = &stop_;
-    o.ready = [&](const std::string& address, const fs::path& door) {
-      const std::string before = "http://127.0.0.1:", between = "/?token=";
-      const std::size_t at = address.find(between);
-      if (address.starts_with(before) && at != std::string::npos) {
-        port = static_cast<unsigned short>(std::stoi(address.substr(before.size(), at - before.size())));
-        token = address.substr(at + between.size());
-      }
-      door_mode = fs::status(door).permissions();
-      folder_mode = fs::status(door.parent_path()).permissions();
-      ready.set_value();
-    };
-    thread_ = std::thread([this, o] { serve_lab(o); });
-    ready.get_future().wait();
-  }
-  ~Served() {
-    stop_ = true;
-    thread_.join();
-  }
-
-  /// Header lines of the lab's page, with the cookie.
-  std::string own() const {
-    return fmt::format(
-        "Host: 127.0.0.1:{0}\r\nCookie: faba-{0}={1}\r\nOrigin: http://127.0.0.1:{0}\r\nSec-Fetch-Site: "
-        "same-origin\r\n",
-        port, token);
-  }
-  std::string ask(const std::string& line, const std::string& headers, const std::string& body = "") const {
-    RawClient c(port);
-    c.send(fmt::format("{} HTTP/1.1\r\n{}Content-Length: {}\r\n\r\n{}", line, headers, body.size(), body));
-    return c.answer();
-  }
-  std::string get(const std::string& path) const { return ask("GET " + path, own()); }
-
-  unsigned short port = 0;
-  std::string token;
-  fs::perms door_mode{}, folder_mode{};
-  const fs::path& folder() const { return folder_.path(); }
-
- private:
-  test::TemporaryFolder folder_;
-  std::atomic<bool> stop_ = false;
-  std::thread thread_;
-};
 
 const std::string kUpgrade =
     "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: "
@@ -93,6 +34,49 @@ std::size_t resident() {
 }
 
 }  // namespace
+
+TEST_CASE("a run is deleted and restored; deleted files cannot be requested") {
+  const Served lab;
+  const fs::path run = lab.folder() / "runs/one";
+  fs::create_directories(run);
+  write_file(run / "manifest.json", R"({"version":"0.1.0","title":"One","complete":true})");
+  write_file(run / "scenario.toml", "[[swarm]]\ncount = 1\n");
+  write_file(run / "series.csv", "confidential content");
+  const std::string json = lab.own() + "Content-Type: application/json\r\n";
+  const auto body = [](const std::string& answer) { return Json::parse(test::body_of(answer)); };
+  const Json list = body(lab.get("/api/runs"));
+  REQUIRE(list.size() == 1);
+  const Json size = body(lab.get("/api/runs/one/size"));
+  CHECK(size["bytes"] == list[0]["bytes"]);
+
+  // Other web pages cannot send this request.
+  CHECK(status_of(lab.ask("DELETE /api/runs/one", lab.own())) == 415);
+  const Json item = body(lab.ask("DELETE /api/runs/one", json));
+  CHECK(item["bytes"] == size["bytes"]);
+  CHECK_FALSE(fs::exists(run));
+  CHECK(body(lab.get("/api/runs")).empty());
+  CHECK(body(lab.get("/api/trash")) == Json::array({item}));
+  const std::string hidden = fs::directory_iterator(lab.folder() / ".faba-trash")->path().filename();
+  const std::string file = fmt::format(".faba-trash/{}/{}/0/series.csv", hidden, item["id"].get<int>());
+  REQUIRE(fs::exists(lab.folder() / file));
+  for (const char* before :
+       {"/api/runs/../", "/api/runs/%2e%2e/", "/runs/%2e%2e%2f", "/runs/../", "/", "/api/"}) {
+    const std::string answer = lab.get(before + file);
+    INFO(before);
+    CHECK(status_of(answer) >= 400);
+    CHECK(answer.find("confidential") == std::string::npos);
+  }
+  const std::string undo = fmt::format("POST /api/trash/{}/undo", item["id"].get<int>());
+  CHECK(body(lab.ask(undo, json, "{}"))["name"] == "runs/one");
+  CHECK(read_file(run / "series.csv") == "confidential content");
+  CHECK(status_of(lab.ask(undo, json, "{}")) == 404);
+  CHECK(status_of(lab.ask("DELETE /api/runs/none", json)) == 404);
+  CHECK(status_of(lab.ask("DELETE /api/runs/..", json)) >= 400);
+
+  CHECK(body(lab.ask("POST /api/runs/one/rename", json, R"({"to":"../two"})"))["name"] == "two");
+  CHECK(status_of(lab.ask("POST /api/runs/two/tags", json, R"({"tags":["a"],"note":"b"})")) == 200);
+  CHECK(body(lab.get("/api/runs"))[0]["tags"] == Json::array({"a"}));
+}
 
 TEST_CASE("the lab answers requests of its page") {
   const Served lab;
@@ -140,13 +124,14 @@ TEST_CASE("an error in an imported file names the file once, with the line") {
   CHECK(check("", "seed =\n") == "file:1");
 }
 
-TEST_CASE("currents of a field map must be a list of numbers") {
+TEST_CASE("currents of a field map must be a list of numbers, and no job starts with other values") {
   const Served lab;
   fs::create_directories(lab.folder() / "rigs");
   write_file(lab.folder() / "rigs/a.toml", "");
-  for (const char* current : {"", " ", "0.5,", "0.5,,1", "a", "0.5 A", "nan", "1;2"}) {
-    INFO(current);
-    const Json asked = {{"verb", "field map"}, {"rig", "rigs/a.toml"}, {"current", current}};
+  for (const Json& current : {Json(" "), Json("0.5,1"), Json({"0.5", ""}), Json({"a"}), Json({"0.5 T"}),
+                              Json({"nan"}), Json({"--json"})}) {
+    INFO(current.dump());
+    const Json asked = {{"kind", "field-map"}, {"values", {{"rig", "rigs/a.toml"}, {"current", current}}}};
     const std::string a =
         lab.ask("POST /api/jobs", lab.own() + "Content-Type: application/json\r\n", asked.dump());
     CHECK(status_of(a) == 422);

@@ -21,6 +21,12 @@ TEST_CASE("valid messages of the page") {
   CHECK(parse_page_message(R"({"id":3,"do":"speed","factor":0.1})").factor == 0.1);
   CHECK(parse_page_message(R"({"id":3,"do":"look","camera":true})").camera);
   CHECK(parse_page_message(R"({"id":3,"do":"look","sites":512})").sites == 512);
+  const PageMessage all = parse_page_message(R"({"id":4,"do":"save","name":"a"})");
+  CHECK(all.from == 0);
+  CHECK_FALSE(all.to);
+  const PageMessage part = parse_page_message(R"({"id":4,"do":"save","name":"a","from":1.5,"to":3})");
+  CHECK(part.from == 1.5);
+  CHECK(*part.to == 3);
 }
 
 TEST_CASE("invalid messages throw an error") {
@@ -48,6 +54,8 @@ TEST_CASE("invalid messages throw an error") {
                                  std::string(R"({"id":1,"do":"look","sites":5000})"),
                                  std::string(R"({"id":1,"do":"look","sites":-1})"),
                                  std::string(R"({"id":1,"do":"save"})"),
+                                 std::string(R"({"id":1,"do":"save","name":"a","from":-1})"),
+                                 std::string(R"({"id":1,"do":"save","name":"a","to":"now"})"),
                                  std::string("\xff\xfe{\"id\":1}"),
                                  deep}) {
     INFO(bad.substr(0, 60));

@@ -67,46 +67,25 @@ TEST_CASE("S6: a scenario of a page cannot refer to files outside of the workspa
   }
 }
 
-TEST_CASE("scenes, runs and files of the workspace") {
+TEST_CASE("scenes and runs of the workspace") {
   test::TemporaryFolder folder("workspace");
   const fs::path root = folder.path();
-  for (const char* dir : {"scenes", "studies", "rigs", "videos", "runs/a", "runs/drawn", "runs/broken",
-                          "runs/empty", "runs/.b"})
+  for (const char* dir : {"scenes", "runs/a", "runs/drawn", "runs/broken", "runs/empty", "runs/.b"})
     fs::create_directories(root / dir);
   write_file(root / "scenes/b.toml", "");
   write_file(root / "scenes/a.toml", "");
   write_file(root / "scenes/x.txt", "");
-  for (const auto& [run, manifest] :
-       {std::pair{"a", R"({"version": "1", "video_shows": "camera"})"},
-        std::pair{"drawn", R"({"version": "1", "video_shows": "drawing"})"}, std::pair{"broken", "{"}}) {
-    write_file(root / "runs" / run / "manifest.json", manifest);
+  write_file(root / "scenes/gallery.toml", "");  // the index of the gallery is not a scene
+  for (const char* run : {"a", "drawn", "broken"}) {
+    write_file(root / "runs" / run / "manifest.json", "{");
     write_file(root / "runs" / run / "scenario.toml", "");
-    write_file(root / "runs" / run / "video.mp4", "");
   }
-  write_file(root / "videos/v.mp4", "");
-  write_file(root / "rigs/pair.toml", "[[coil]]\ncurrent = '1 A'\n[[coil]]\n");
-  write_file(root / "rigs/r.toml", "");
-  write_file(root / "rigs/wrong.toml", "[[");
-  write_file(root / "studies/i.toml", "[[model]]\nname = 'a'\n");
-  write_file(root / "studies/c.toml", "scene = 'steer.toml'\n");
-  write_file(root / "studies/v.toml", "[[video]]\nfile = 'x.mp4'\n");
-  write_file(root / "studies/broken.toml", "[[");
   const Workspace w(root, {});
   REQUIRE(w.scenes().size() == 2);
   CHECK(w.scenes()[0].filename() == "a.toml");
   CHECK(w.scene("b") == fs::canonical(root) / "scenes/b.toml");
   for (const char* bad : {"c", "../scenes/b", "x", "", "b.toml"}) CHECK_THROWS_AS(w.scene(bad), const Error&);
   CHECK(w.runs().size() == 3);
-  const Json files = w.files();
-  CHECK(files["videos"] == Json({"runs/a", "videos/v.mp4"}));
-  REQUIRE(files["rigs"].size() == 3);
-  CHECK(files["rigs"][0] == Json({{"file", "rigs/pair.toml"}, {"coils", 2}, {"currents", true}}));
-  CHECK(files["rigs"][1] == Json({{"file", "rigs/r.toml"}, {"coils", 0}, {"currents", false}}));
-  CHECK(files["rigs"][2] == Json({{"file", "rigs/wrong.toml"}, {"coils", 0}, {"currents", false}}));
-  REQUIRE(files["studies"].size() == 3);
-  CHECK(files["studies"][0] == Json({{"file", "studies/c.toml"}, {"verb", "compare-controllers"}}));
-  CHECK(files["studies"][1]["verb"] == "identify");
-  CHECK(files["studies"][2]["verb"] == "activity");
 }
 
 TEST_CASE("without scenes in the workspace, the gallery of the program is used") {
@@ -114,4 +93,54 @@ TEST_CASE("without scenes in the workspace, the gallery of the program is used")
   write_file(program.path() / "s.toml", "");
   CHECK(Workspace(folder.path(), program.path()).scene("s") == program.path() / "s.toml");
   CHECK(Workspace(folder.path(), folder.path() / "none").scenes().empty());
+}
+
+TEST_CASE("S6: allowed folders can be read, and nothing beside them") {
+  test::TemporaryFolder folder("allowed");
+  const fs::path root = folder.path() / "work", data = folder.path() / ".data";
+  for (const fs::path& dir : {root, data / "sub", folder.path() / "other"}) fs::create_directories(dir);
+  for (const fs::path& file :
+       {data / "a.avi", data / "sub/b.avi", data / ".hidden.avi", folder.path() / "other/c.avi"})
+    write_file(file, "x");
+  fs::create_symlink(folder.path() / "other/c.avi", data / "link.avi");
+  const Workspace w(root, {}, {data});
+  CHECK(w.existing((data / "sub/b.avi").string()) == fs::canonical(data / "sub/b.avi"));
+  CHECK(w.name_of(data / "a.avi") == fs::canonical(data / "a.avi").string());
+  CHECK(w.name_of(root / "runs/x") == "runs/x");
+  CHECK(w.may_read(root));
+  for (const fs::path& bad : {data / ".hidden.avi", data / "link.avi", folder.path() / "other/c.avi",
+                              data / "../other/c.avi", fs::path("/etc/passwd"), folder.path()}) {
+    INFO(bad);
+    CHECK(!w.may_read(bad));
+    CHECK_THROWS_AS(w.existing(bad.string()), const Error&);
+  }
+  // Nothing is written there.
+  CHECK_THROWS_AS(w.inside((data / "new.toml").string()), const Error&);
+  CHECK_THROWS_WITH_AS(Workspace(root, {}, {folder.path() / "missing"}), doctest::Contains("is not a folder"),
+                       const Error&);
+TEST_CASE("S6: pictures are kept in the workspace, and never replace a file") {
+  test::TemporaryFolder folder("workspace");
+  const fs::path root = folder.path() / "work";
+  fs::create_directories(root / "scenes");
+  write_file(folder.path() / "upload", "picture");
+  const Workspace w(root, {});
+  const auto keep = [&](const char* name) { return w.keep_picture(folder.path() / "upload", name); };
+  CHECK(keep("a drop.tif") == "pictures/a drop.tif");
+  CHECK(read_file(root / "pictures/a drop.tif") == "picture");
+  CHECK(keep("a drop.tif") == "pictures/a drop-2.tif");
+  CHECK(keep("../../out.tif") == "pictures/out.tif");
+  for (const char* bad : {"..", ".", "", "/", ".hidden.png"}) CHECK_THROWS_AS(keep(bad), const Error&);
+  CHECK_FALSE(fs::exists(folder.path() / "out.tif"));
+  write_file(root / "b.png", "");
+  CHECK(w.pictures() == std::vector<std::string>{"b.png", "pictures/a drop-2.tif", "pictures/a drop.tif",
+                                                 "pictures/out.tif"});
+  CHECK(w.scenario_file("pictures/out.tif") == fs::canonical(root) / "pictures/out.tif");
+  CHECK_THROWS_AS((void)w.scenario_file("../upload"), const Error&);
+  // A link in place of the folder or of a picture does not lead out of the workspace.
+  fs::create_symlink(folder.path() / "target.png", root / "pictures/link.png");
+  CHECK(keep("link.png") == "pictures/link-2.png");
+  CHECK_FALSE(fs::exists(folder.path() / "target.png"));
+  fs::remove_all(root / "pictures");
+  fs::create_directory_symlink(folder.path(), root / "pictures");
+  CHECK_THROWS_AS(keep("c.png"), const Error&);
 }

@@ -22,12 +22,18 @@ export interface Job {
   words: string[];
   page: string;
   out: string;
+  /** Kind of job; empty for a recording. */
+  kind: string;
+  /** Run time estimated before the start, s; 0: unknown. */
+  estimate_s: number;
   state: 'waiting' | 'running' | 'done' | 'failed' | 'cancelled';
   doing: string;
   done: number;
   of: number;
   seconds: number;
   error: string;
+  /** What the job printed as JSON. */
+  result?: unknown;
 }
 export interface Trouble {
   where: string;
@@ -56,6 +62,10 @@ export class Lab {
   /** Present scenario, resolved. */
   scenario = $state.raw<Record<string, any>>({});
   jobs = $state.raw<Job[]>([]);
+  /** The newest change of an experiment by any page, and the number of changes. */
+  experimentNews = $state.raw({ name: '', count: 0 });
+  /** A list of jobs was received. */
+  hasJobs = $state(false);
   /** JSON Schema of a scenario; null until the program has sent it. */
   schema = $state.raw<Schema | null>(null);
   trouble = $state.raw<Trouble | null>(null);
@@ -137,6 +147,9 @@ export class Lab {
         this.frame = null;
         break;
       }
+      case 'experiment':
+        this.experimentNews = { name: n.name, count: this.experimentNews.count + 1 };
+        break;
       case 'history':
         if (n.run === this.run?.run) this.takeHistory(n.rows);
         break;
@@ -158,6 +171,7 @@ export class Lab {
         break;
       case 'jobs':
         this.jobs = n.jobs;
+        this.hasJobs = true;
         break;
       case 'stopped':
         this.stopped = { where: n.where, what: n.what };

@@ -2,7 +2,9 @@
 // `runs`, its parts ["steer"], and the values { at: "3" }. The part behind # is not sent to the server, so that any address
 // loads the page.
 
-export const kPages = ['lab', 'gallery', 'experiments', 'runs', 'analyse', 'bench'] as const;
+/** The pages of the navigation bar. */
+export const kTabs = ['lab', 'gallery', 'experiments', 'runs', 'analyse', 'jobs', 'bench'] as const;
+export const kPages = [...kTabs, 'own', 'result', 'tracks', 'video'] as const;
 export type PageName = (typeof kPages)[number];
 
 export interface Place {

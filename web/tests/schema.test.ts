@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { amount, check, hasDefaults, inputPath, kindOf, presetOf, same, shown, sourceOf, variant, variants, type Schema } from '../src/form/schema';
+import { amount, check, inputPath, kindOf, presetState, same, shown, sourceOf, variant, variants, type Schema } from '../src/form/schema';
 import { sampleSchema } from './sample_schema';
 
 const speed: Schema = { type: ['number', 'string'], 'x-unit': 'm/s', minimum: 7e-6, maximum: 3.2e-4 };
@@ -118,24 +118,31 @@ describe('presets', () => {
   };
   const part: Schema = { properties: { type: { const: 'rod' }, preset, size, spread, rate } };
 
-  test('the preset that the table names', () => {
-    expect(presetOf(part, { type: 'rod', preset: 'second', size: '9 um' })).toBe('second');
+  const state = (table: Record<string, any>) => presetState(part, { type: 'rod', ...table });
+  test('the preset that the table names, with the values that differ from it', () => {
+    expect(state({ preset: 'second' })).toMatchObject({ preset: 'second', changed: [] });
+    expect(state({ preset: 'second', size: '2 um', spread: 0 })).toMatchObject({ preset: 'second', changed: ['spread'] });
+    expect(state({ preset: 'second', spread: 0.3, size: '9 um' })).toMatchObject({ preset: 'second', changed: ['size'] });
   });
   test('the preset with the values of a resolved table, in any unit', () => {
-    expect(presetOf(part, { type: 'rod', size: '0.000002 m', spread: 0.3 })).toBe('second');
-    expect(presetOf(part, { type: 'rod', size: '0.000001 m', spread: 0.3 })).toBe('first');
+    expect(state({ size: '0.000002 m', spread: 0.3 })).toMatchObject({ preset: 'second', changed: [] });
+    expect(state({ size: '0.000001 m', spread: 0.3 })).toMatchObject({ preset: 'first', changed: [] });
   });
-  test('none if a value differs, or if the preset does not have it', () => {
-    expect(presetOf(part, { type: 'rod', size: '2 um', spread: 0.4 })).toBe('');
-    expect(presetOf(part, { type: 'rod', size: '2 um', spread: 0.3, rate: 1 })).toBe('');
-    expect(presetOf(part, { type: 'rod' })).toBe('');
-    expect(presetOf({ properties: { type: { const: 'dot' } } }, { type: 'dot' })).toBe('');
-    expect(presetOf(undefined, {})).toBe('');
+  test('a resolved table with some other values still shows its preset: it is not a custom table', () => {
+    expect(state({ size: '2 um', spread: 0.3, rate: 1 })).toMatchObject({ preset: 'second', changed: ['rate'] });
+    expect(state({ size: '2 um', spread: 0.4 })).toMatchObject({ preset: 'second', changed: ['spread'] });
+  });
+  test('none if its values are closer to the defaults, or if it does not have those that distinguish presets', () => {
+    expect(state({}).preset).toBe('');
+    expect(state({ rate: 2 }).preset).toBe('');
+    expect(state({ size: '5 um', spread: 0.3 }).preset).toBe('');
+    expect(presetState({ properties: { type: { const: 'dot' } } }, { type: 'dot' }).preset).toBe('');
+    expect(presetState(undefined, {}).preset).toBe('');
   });
   test('the defaults are not custom values', () => {
-    expect(hasDefaults(part, { type: 'rod', size: '0.001 mm' })).toBe(true);
-    expect(hasDefaults(part, { type: 'rod', size: '2 um' })).toBe(false);
-    expect(hasDefaults(part, { type: 'rod', rate: 2 })).toBe(false);
+    expect(state({ size: '0.001 mm' }).isDefault).toBe(true);
+    expect(state({ size: '2 um' }).isDefault).toBe(false);
+    expect(state({ rate: 2 }).isDefault).toBe(false);
   });
   test('the source of a value is that of the preset that gives it, and that of the schema for the default', () => {
     const second = { value: '2 um', source: 'paper 2' };

@@ -87,6 +87,9 @@ BenchSession BenchSession::begin(Scenario s, std::shared_ptr<OpenBench> bench, s
   s.record.as_seen = true;
   s.record.tracks = false;
   if (!s.rig->camera.has(Trait::simulated)) s.scale.require_known();
+  if (s.record.from > 0 || s.record.to)
+    throw Error(Errc::usage, s.record.from > 0 ? "record.from" : "record.to",
+                "a run on a bench is recorded from its start to its end; remove this key");
   m->seed = seed;
   m->options = o;
   m->pool = std::make_unique<Pool>(o.threads);

@@ -27,8 +27,10 @@ struct Manifest {
   std::string polarity;        ///< "north" or "south": of the steered cells
   bool open_loop = false;      ///< no controller of the run uses the setpoints; not in manifest.json
   bool complete = false;
-  std::uint64_t frames = 0;  ///< number of control cycles
+  std::uint64_t frames = 0;  ///< number of recorded frames, one per control cycle
   double duration_s = 0, wall_time_s = 0;
+  /// Simulated times of the recorded part, s; empty: the run is recorded from its start to its end.
+  std::optional<Vec2> recorded_s;
   std::string date;           ///< start of the recording by this process, UTC, ISO 8601
   std::filesystem::path out;  ///< run directory, as given
   std::size_t setpoints = 0;  ///< number of setpoints of the reference, reached or not

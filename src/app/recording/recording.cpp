@@ -9,6 +9,23 @@ namespace faba {
 
 using namespace run_files;
 
+namespace {
+
+/// Passes the frames of a range to a sink.
+class RecordedPart final : public Sink {
+ public:
+  RecordedPart(Sink& sink, FrameRange range) : sink_(sink), range_(range) {}
+  void take(const Tick& t) override {
+    if (t.index >= range_.first && t.index < range_.end) sink_.take(t);
+  }
+
+ private:
+  Sink& sink_;
+  FrameRange range_;
+};
+
+}  // namespace
+
 Recording::Recording(RunDirectory directory, const Scenario& scenario, bool resumed)
     : directory_(std::move(directory)), scenario_hash_(scenario.hash()) {
   if (!resumed) write_file(dir() / kScenario, to_toml(scenario.resolved()));
@@ -27,11 +44,12 @@ void Recording::open_sinks(const SinkContext& c, Archive* resume) {
     sinks_.push_back(video_sink(lossless, true, resume));
   }
   if (c.record.flow) sinks_.push_back(flow_sink(c, resume));
+  for (const auto& s : sinks_) parts_.push_back(std::make_unique<RecordedPart>(*s, c.recorded));
 }
 
 std::vector<Sink*> Recording::sinks() const {
   std::vector<Sink*> all;
-  for (const auto& s : sinks_) all.push_back(s.get());
+  for (const auto& s : parts_) all.push_back(s.get());
   return all;
 }
 

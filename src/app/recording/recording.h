@@ -43,6 +43,7 @@ class Recording {
   std::string scenario_hash_;
   SeriesSink* series_ = nullptr;  ///< one of sinks_
   std::vector<std::unique_ptr<RunSink>> sinks_;
+  std::vector<std::unique_ptr<Sink>> parts_;  ///< pass the recorded frames to sinks_
   std::shared_ptr<const KeptFrames> kept_;
   std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   std::chrono::system_clock::time_point date_ = std::chrono::system_clock::now();

@@ -21,6 +21,8 @@ class RunLock {
 
   /// Whether a directory has such a file, and not an unrelated file of that name.
   static bool marks(const std::filesystem::path& dir);
+  /// Whether a process is writing a run to this directory.
+  static bool held(const std::filesystem::path& dir) { return FileLock::held(dir / kFile); }
 
  private:
   FileLock lock_;

@@ -117,8 +117,12 @@ Manifest Session::manifest() const {
   const World& world = simulation_->world();
   Manifest m = manifest_of(scenario_, seed_, simulation_->frame(), world.parts().arena->outline());
   m.complete = loop.next == scenario_.frames();
-  m.frames = loop.next;
-  m.duration_s = double(loop.next) * scenario_.frame_period();
+  const FrameRange part = scenario_.recorded_frames();
+  const std::uint64_t end = std::clamp(loop.next, part.first, part.end);
+  m.frames = end - part.first;
+  m.duration_s = double(m.frames) * scenario_.frame_period();
+  if (part.first > 0 || part.end < scenario_.frames())
+    m.recorded_s = {double(part.first) * scenario_.frame_period(), double(end) * scenario_.frame_period()};
   m.wall_time_s = recording_.wall_time();
   m.date = recording_.date();
   m.out = dir();

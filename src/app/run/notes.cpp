@@ -288,6 +288,16 @@ void note_recording(const Scenario& s, Notes& notes) {
         "them to true");
 }
 
+void note_part(const Scenario& s, Notes& notes) {
+  const FrameRange part = s.recorded_frames();
+  if (part.first == 0 && part.end == s.frames()) return;
+  notes.push_back(fmt::format(
+      "record.from, record.to: the files contain the part from {:g} s to {:g} s of a run of {:g} s; times "
+      "count from the start of the run",
+      double(part.first) * s.frame_period(), double(part.end) * s.frame_period(),
+      double(s.frames()) * s.frame_period()));
+}
+
 void note_events(const Scenario& s, Notes& notes) {
   for (std::size_t i = 0; i < s.events.size(); ++i)
     if (s.events[i].frame >= s.frames())
@@ -337,6 +347,7 @@ std::vector<std::string> scenario_notes(const Scenario& s, const Simulation& sim
   note_without_effect(s, simulation, notes);
   note_events(s, notes);
   note_recording(s, notes);
+  note_part(s, notes);
   note_weak_field(s, simulation, notes);
   note_delay(s, notes);
   note_view(simulation, notes);

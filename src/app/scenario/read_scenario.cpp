@@ -43,6 +43,19 @@ void read_sections(const Node& root, const Parts& parts, Scenario& s) {
   }
 }
 
+void check_recorded_part(const Node& root, const Scenario& s) {
+  const FrameRange part = s.recorded_frames();
+  if (part.first < part.end) return;
+  if (!s.record.to || *s.record.to >= s.params.duration)
+    throw Error(
+        Errc::usage, root.where("record.from"),
+        fmt::format("{:g} s is not before the end of the run at {:g} s; decrease it or increase duration",
+                    s.record.from, s.params.duration));
+  throw Error(Errc::usage, root.where("record.to"),
+              fmt::format("{:g} s is not after record.from = {:g} s, no frame is between them; increase it",
+                          *s.record.to, s.record.from));
+}
+
 }  // namespace
 
 Scenario read_scenario(Document d, const Parts& parts) {
@@ -63,6 +76,7 @@ Scenario read_scenario(Document d, const Parts& parts) {
   if (s.exclusion.order == Exclusion::Order::none && s.arena.make({s.si_scale()})->needs_exclusion())
     throw Error(Errc::usage, root.where("arena"),
                 "limits = \"reject\" needs exclusion; use \"clamp\" or \"reflect\"");
+  check_recorded_part(root, s);
   return s;
 }
 

@@ -21,11 +21,19 @@ Schema<Scenario::Params> Scenario::schema() {
            {.unit = "s",
             .min = 0,
             .max = 1e6,
-            .doc = "Air exposure time before the run; has an effect with a motility law"});
+            .doc = "Air exposure time before the run; has an effect with a motility law",
+            .title = "Air exposure time"});
 }
 
 std::uint64_t Scenario::frames() const {
   return std::uint64_t(std::max(1.0, std::floor(params.duration * camera.rate + 0.5)));
+}
+
+FrameRange Scenario::recorded_frames() const {
+  constexpr double kRounding = 1e-6;  // frames; a time such as 0.3 s at 30 Hz is that of a frame
+  const auto first_at = [&](double t) { return std::uint64_t(std::ceil(t * camera.rate - kRounding)); };
+  const std::uint64_t first = std::min(first_at(record.from), frames());
+  return {first, std::clamp(record.to ? first_at(*record.to) : frames(), first, frames())};
 }
 
 Scale Scenario::si_scale() const {

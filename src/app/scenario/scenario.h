@@ -100,6 +100,8 @@ struct Scenario {
   }
 
   std::uint64_t frames() const;  ///< number of frames of the run, at least 1
+  /// Frames from record.from to record.to.
+  FrameRange recorded_frames() const;
   double frame_period() const { return 1 / camera.rate; }
   /// Whether the control loop gets pictures, not positions.
   bool sees_pictures() const { return camera.sensor == CameraParams::Sensor::frames; }

@@ -27,7 +27,7 @@ class FlowSink final : public RunSink {
     after_.height = picture->height;
     after_.px.assign(picture->px.begin(), picture->px.end());
     const double now = c_.frames->time_of(t);
-    if (t.index > 0) {
+    if (!before_.px.empty()) {
       method_->between(before_, after_, flow_);
       writer_->write(t.index - 1, t_before_, now, flow_);
     }

@@ -50,7 +50,8 @@ SinkContext sink_context(const Scenario& s, Simulation& simulation, Pool& pool,
                          const std::filesystem::path& dir) {
   const bool jitter = s.camera.jitter > 0;
   const auto every = std::uint64_t(s.record.video_every);
-  const std::uint64_t frames = (s.frames() + every - 1) / every;
+  const FrameRange part = s.recorded_frames();
+  const std::uint64_t frames = (part.end - part.first + every - 1) / every;
   SinkContext c{.dir = dir,
                 .frames = std::make_shared<SimulatedFrames>(simulation.rig(), jitter, s.camera.rate),
                 .field = simulation.world().parts().field,
@@ -59,6 +60,7 @@ SinkContext sink_context(const Scenario& s, Simulation& simulation, Pool& pool,
                 .um_per_px = s.scale.um_per_px,
                 .frame_rate = s.camera.rate,
                 .record = s.record,
+                .recorded = part,
                 .dose = !s.motility.has(Trait::inert),
                 .jitter = jitter,
                 .flow = s.flow,

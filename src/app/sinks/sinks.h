@@ -49,6 +49,7 @@ struct SinkContext {
   std::optional<double> um_per_px;  ///< empty: `scale` is nominal, and lengths are stated in px
   double frame_rate;                ///< Hz
   Record record;
+  FrameRange recorded = {};          ///< frames that the sinks get
   bool dose = false;                 ///< cells may stop responding during the run
   bool jitter = false;               ///< frames are not taken at regular times
   FlowRegistry::PartType flow = {};  ///< method of flow.h5

@@ -50,7 +50,7 @@ class Tracks final : public RunSink {
   }
 
   void take(const Tick& t) override {
-    if (t.index % std::uint64_t(c_.record.tracks_every)) return;
+    if ((t.index - c_.recorded.first) % std::uint64_t(c_.record.tracks_every)) return;
     const State& s = c_.truth->state();
     const auto x = s.agents["x"], y = s.agents["y"], response = s.agents["response"];
     row_.resize(2 * x.size());

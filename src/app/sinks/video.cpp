@@ -25,10 +25,11 @@ class Video final : public RunSink {
   }
 
   void take(const Tick& t) override {
-    if (t.index % std::uint64_t(c_.record.video_every)) return;
+    const std::uint64_t recorded = t.index - c_.recorded.first;
+    if (recorded % std::uint64_t(c_.record.video_every)) return;
     if (!writer_) return;
     if (c_.jitter && !c_.frames->planned_time(t.index)) times_.push_back(c_.frames->time_of(t));
-    const bool kept = c_.kept && c_.kept->keeps(t.index / std::uint64_t(c_.record.video_every));
+    const bool kept = c_.kept && c_.kept->keeps(recorded / std::uint64_t(c_.record.video_every));
     const double t_s = kept ? c_.frames->time_of(t) : 0;
     if (c_.draw) {
       encoding_.add([this, kept, t_s, picture = c_.draw(t)] { write(picture, kept, t_s); });
@@ -52,7 +53,7 @@ class Video final : public RunSink {
     if (c_.jitter) {
       const auto every = std::uint64_t(c_.record.video_every);
       writer_->finish(final_, keep, [&](long long frame) {
-        const auto planned = c_.frames->planned_time(std::uint64_t(frame) * every);
+        const auto planned = c_.frames->planned_time(c_.recorded.first + std::uint64_t(frame) * every);
         return planned ? *planned : taken_at(std::size_t(frame));
       });
     } else {

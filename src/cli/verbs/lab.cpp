@@ -18,6 +18,7 @@ namespace {
 
 struct LabVerb {
   std::filesystem::path scene, pages;
+  std::vector<std::filesystem::path> allowed;
   int port = 0;
   unsigned threads = 0;
   bool no_browser = false;
@@ -45,6 +46,7 @@ int lab(const LabVerb& v, const Common& c) {
   o.scenes = o.program.parent_path().parent_path() / "scenes";
   o.scene = v.scene;
   o.pages = v.pages;
+  o.allowed = v.allowed;
   o.port = static_cast<unsigned short>(v.port);
   o.threads = v.threads;
   o.stop = &stop_requested();
@@ -70,6 +72,11 @@ void add_lab(CLI::App& app, CommandLine& line) {
                      "  faba lab\n  faba lab scenes/steer.toml\n  faba lab --no-browser --port 8765");
   v->add_option("scene", o->scene, "Scenario file to open; default: the page shows the gallery");
   v->add_option("--port", o->port, "Port on 127.0.0.1; default: any free port")->check(integers(0, 65535));
+  v->add_option(
+       "--allow", o->allowed,
+       "Folder from which the page may read videos and pictures, outside the folder in which the lab is "
+       "started; may be repeated")
+      ->check(not_empty);
   v->add_flag("--no-browser", o->no_browser, "Do not open a browser; print the address only");
   v->add_option("--threads", o->threads, "Number of threads; default: all threads of the machine")
       ->check(integers(1, 1024));

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "app/scenario/scenario.h"
 #include "app/scenario/scenario_schema.h"
@@ -96,11 +97,16 @@ int parts(const PartsVerb& v, const Common& c) {
     describe(one, "  ");
     return 0;
   }
+  std::size_t widest = 0;
+  each_kind(all, [&](const char*, const auto& registry) {
+    for (const auto& name : registry.names()) widest = std::max(widest, name.size());
+  });
   each_kind(all, [&](const char* kind, const auto& registry) {
     if (!v.kind.empty() && v.kind != kind) return;
     fmt::print("{}: {}\n", kind, registry.doc());
     for (const auto& name : registry.names())
-      fmt::print("  {:<19}{}\n", name, registry.json_schema(name)["description"].template get<std::string>());
+      fmt::print("  {:<{}}  {}\n", name, widest,
+                 registry.json_schema(name)["description"].template get<std::string>());
   });
   fmt::print("\nParameters of a part: faba parts KIND NAME, for example faba parts model dipole\n");
   return 0;

@@ -15,18 +15,31 @@ WebResponse failure(int status, const Error& e) {
 
 }  // namespace
 
-Api::Api(const Workspace& workspace, JobList& jobs, fs::path pictures, fs::path pages)
-    : pages_(std::move(pages)), experiments_(workspace), lab_{workspace,       jobs,   std::move(pictures),
-                                                              builtin_parts(), bench_, experiments_} {
+Api::Api(const Workspace& workspace, JobList& jobs, fs::path pictures, fs::path pages,
+         std::function<void(const Json&)> news)
+    : pages_(std::move(pages)),
+      experiments_(workspace,
+                   [news = std::move(news)](const std::string& name) {
+                     news({{"say", "experiment"}, {"name", name}});
+                   }),
+      trash_(workspace),
+      runs_(workspace, jobs, trash_),
+      lab_{workspace, jobs, std::move(pictures), builtin_parts(), bench_, experiments_, imports_, runs_, trash_} {
   routes_.add("GET", "/api/about", [this](const auto&, const auto&) {
     return json_answer({{"version", FABA_VERSION}, {"workspace", lab_.workspace.root()}});
   });
   add_scenario_routes(routes_, lab_);
   add_gallery_routes(routes_, lab_);
+  add_result_routes(routes_, lab_);
   add_run_routes(routes_, lab_);
   add_experiment_routes(routes_, lab_);
+  add_folder_routes(routes_, lab_);
   add_job_routes(routes_, lab_);
+  add_track_routes(routes_, lab_);
+  add_trash_routes(routes_, lab_);
+  add_input_routes(routes_, lab_);
   add_upload_routes(routes_, lab_);
+  add_video_routes(routes_, lab_);
   add_bench_routes(routes_, lab_);
 }
 

@@ -8,7 +8,9 @@ class Api {
  public:
   /// `pictures`: a private folder for rendered images and uploads. `pages`: folder with the files of the
   /// page, for development; empty: the files embedded in the program.
-  Api(const Workspace& workspace, JobList& jobs, std::filesystem::path pictures, std::filesystem::path pages);
+  /// `news`: sends a message to all pages.
+  Api(const Workspace& workspace, JobList& jobs, std::filesystem::path pictures, std::filesystem::path pages,
+      std::function<void(const Json&)> news);
 
   /// Never throws: errors become responses with a status and {"where", "what"}.
   WebResponse answer(const WebRequest& r);
@@ -19,6 +21,9 @@ class Api {
   std::filesystem::path pages_;
   BenchView bench_;
   ExperimentStore experiments_;
+  Imports imports_{experiments_};
+  Trash trash_;
+  RunCatalogue runs_;
   LabServices lab_;
   Routes routes_;
 };

@@ -1,9 +1,50 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "core/error.h"
 #include "server/api/lab_services.h"
 #include "server/api/responses.h"
 #include "server/request_values.h"
 #include "study/experiment/experiment.h"
 
 namespace faba {
+namespace {
+
+std::string text(const WebRequest& r, const char* key) {
+  const auto it = r.query.find(key);
+  return it == r.query.end() ? "" : it->second;
+}
+
+std::uint64_t number(const WebRequest& r, const char* key) {
+  const std::string value = text(r, key);
+  std::uint64_t n = 0;
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), n);
+  if (error != std::errc() || end != value.data() + value.size())
+    throw Error(Errc::usage, key, fmt::format("\"{}\" must be an integer from 0", value));
+  return n;
+}
+
+ImportPart part_of(const WebRequest& r) {
+  return {.name = text(r, "name"),
+          .size = number(r, "size"),
+          .offset = number(r, "offset"),
+          .modified_s = r.query.contains("modified") ? std::int64_t(number(r, "modified")) : 0,
+          .drop = text(r, "drop")};
+}
+
+// Adds a video of the workspace or of an allowed folder where it is.
+Json pick(const LabServices& lab, const std::string& name, const Json& asked) {
+  const std::filesystem::path file = lab.workspace.existing(text_of(asked, "file"));
+  const std::filesystem::path folder = lab.experiments.folder(name);
+  const bool own = lab.workspace.name_of(file) != file.string();
+  const std::string path = own ? file.lexically_relative(folder).string() : file.string();
+  lab.experiments.add_video(name, path, asked.value("drop", ""));
+  return {{"file", path}};
+}
+
+}  // namespace
 
 void add_experiment_routes(Routes& routes, const LabServices& lab) {
   routes.add("GET", "/api/experiments",
@@ -17,6 +58,19 @@ void add_experiment_routes(Routes& routes, const LabServices& lab) {
              [&lab](const auto&, const auto& names) { return json_answer(lab.experiments.read(names[0])); });
   routes.add("POST", "/api/experiments/*", [&lab](const auto& r, const auto& names) {
     return json_answer(lab.experiments.change(names[0], body_of(r)));
+  });
+  routes.add("POST", "/api/experiments/*/videos", [&lab](const auto& r, const auto& names) {
+    return json_answer(pick(lab, names[0], body_of(r)));
+  });
+  routes.add("GET", "/api/experiments/*/imports", [&lab](const auto&, const auto& names) {
+    return json_answer(lab.imports.incomplete(names[0]));
+  });
+  routes.add("POST", "/api/experiments/*/imports", [&lab](const auto& r, const auto& names) {
+    return json_answer(lab.imports.take(names[0], part_of(r), r.body));
+  });
+  routes.add("DELETE", "/api/experiments/*/imports", [&lab](const auto& r, const auto& names) {
+    lab.imports.cancel(names[0], text(r, "name"), number(r, "size"));
+    return json_answer(Json::object());
   });
 }
 

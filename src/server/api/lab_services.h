@@ -5,7 +5,10 @@
 #include "app/scenario/parts.h"
 #include "server/api/routes.h"
 #include "server/experiments/experiment_store.h"
-#include "server/job_list.h"
+#include "server/experiments/imports.h"
+#include "server/runs/run_catalogue.h"
+#include "server/trash.h"
+#include "server/jobs/job_list.h"
 #include "server/workspace.h"
 
 namespace faba {
@@ -19,15 +22,24 @@ struct LabServices {
   const Parts& parts;
   BenchView& bench;
   ExperimentStore& experiments;
+  Imports& imports;
+  RunCatalogue& runs;
+  Trash& trash;
 };
 
 // Each adds the requests of one concept; see web/protocol.md. The services must outlive the routes.
 void add_bench_routes(Routes& routes, const LabServices& lab);
 void add_experiment_routes(Routes& routes, const LabServices& lab);
+void add_folder_routes(Routes& routes, const LabServices& lab);
 void add_gallery_routes(Routes& routes, const LabServices& lab);
 void add_job_routes(Routes& routes, const LabServices& lab);
+void add_input_routes(Routes& routes, const LabServices& lab);
+void add_result_routes(Routes& routes, const LabServices& lab);
 void add_run_routes(Routes& routes, const LabServices& lab);
 void add_scenario_routes(Routes& routes, const LabServices& lab);
+void add_track_routes(Routes& routes, const LabServices& lab);
+void add_trash_routes(Routes& routes, const LabServices& lab);
 void add_upload_routes(Routes& routes, const LabServices& lab);
+void add_video_routes(Routes& routes, const LabServices& lab);
 
 }  // namespace faba

@@ -2,7 +2,6 @@
 
 #include <cstdlib>
 
-#include "app/recording/run_lock.h"
 #include "app/recording/session.h"
 #include "app/scenario/read_scenario.h"
 #include "app/scenario/scenario.h"
@@ -11,6 +10,7 @@
 #include "server/api/lab_services.h"
 #include "server/api/responses.h"
 #include "server/recorded_run.h"
+#include "server/request_values.h"
 #include "study/pages/thumbnail.h"
 
 namespace faba {
@@ -23,43 +23,13 @@ std::uint64_t number(const WebRequest& r, const char* key, std::uint64_t fallbac
   return it == r.query.end() ? fallback : std::strtoull(it->second.c_str(), nullptr, 10);
 }
 
-// One entry of the list of runs. Throws Json::exception for a manifest that is not JSON or has a value of the
-// wrong type.
-Json run_card(const std::string& name, const fs::path& dir) {
-  const Json m = Json::parse(read_file(dir / run_files::kManifest));
-  Json files = Json::array();
-  for (const char* file : {"series.csv", "tracks.h5", "video.mp4", "video.avi", "flow.h5", "report.html"})
-    if (fs::exists(dir / file)) files.push_back(file);
-  return {{"name", name},
-          {"title", m.value("title", "")},
-          {"complete", m.value("complete", false) && !RunLock::marks(dir)},
-          {"frames", m.value("frames", 0)},
-          {"duration_s", m.value("duration_s", 0.0)},
-          {"seed", m.contains("seed") ? m["seed"].dump() : ""},
-          {"state_hash", m.value("state_hash", "")},
-          {"files", files}};
-}
-
-Json runs(const LabServices& lab) {
-  Json all = Json::array();
-  for (const std::string& name : lab.workspace.runs()) {
-    const fs::path dir = lab.workspace.existing("runs/" + name);
-    try {
-      all.push_back(run_card(name, dir));
-    } catch (const Json::exception&) {  // an invalid manifest must not hide the other runs
-      continue;
-    }
-  }
-  return all;
-}
-
 Json scenario_of(const LabServices& lab, const std::string& name, const fs::path& dir) {
   return {{"file", "runs/" + name + "/scenario.toml"},
           {"scenario", read_scenario(read_toml(dir / run_files::kScenario), lab.parts).resolved()}};
 }
 
 WebResponse picture(const LabServices& lab, const std::string& name, const fs::path& dir) {
-  const auto changed = fs::last_write_time(dir).time_since_epoch().count();
+  const auto changed = fs::last_write_time(dir / run_files::kManifest).time_since_epoch().count();
   fs::path file = lab.pictures / fmt::format("run-{}-{}.png", name, changed);
   if (!fs::exists(file)) write_run_thumbnail(dir, file);
   return picture_answer(file);
@@ -74,11 +44,29 @@ WebResponse output(const LabServices& lab, const std::string& name) {
   return answer;
 }
 
+void add_changes(Routes& routes, const LabServices& lab) {
+  routes.add("GET", "/api/runs/*/size", [&lab](const auto&, const auto& names) {
+    return json_answer({{"bytes", lab.runs.size(names[0])}});
+  });
+  routes.add("DELETE", "/api/runs/*", [&lab](const auto&, const auto& names) {
+    const Trash::Item item = lab.runs.remove(names[0]);
+    return json_answer({{"id", item.id}, {"name", item.name}, {"bytes", item.bytes}});
+  });
+  routes.add("POST", "/api/runs/*/rename", [&lab](const auto& r, const auto& names) {
+    return json_answer({{"name", lab.runs.rename(names[0], text_of(body_of(r), "to"))}});
+  });
+  routes.add("POST", "/api/runs/*/tags", [&lab](const auto& r, const auto& names) {
+    lab.runs.set_tags(names[0], body_of(r));
+    return json_answer(Json::object());
+  });
+}
+
 }  // namespace
 
 void add_run_routes(Routes& routes, const LabServices& lab) {
   const auto dir = [&lab](const std::string& name) { return lab.workspace.existing("runs/" + name); };
-  routes.add("GET", "/api/runs", [&lab](const auto&, const auto&) { return json_answer(runs(lab)); });
+  routes.add("GET", "/api/runs", [&lab](const auto&, const auto&) { return json_answer(lab.runs.list()); });
+  add_changes(routes, lab);
   routes.add("GET", "/api/runs/*/about",
              [dir](const auto&, const auto& names) { return json_answer(describe_run(dir(names[0]))); });
   routes.add("GET", "/api/runs/*/scenario", [&lab, dir](const auto&, const auto& names) {

@@ -9,7 +9,6 @@
 #include "core/file.h"
 #include "core/hash.h"
 #include "server/experiments/experiment_changes.h"
-#include "study/experiment/experiment.h"
 
 namespace faba {
 namespace {
@@ -113,17 +112,41 @@ Json ExperimentStore::change(const std::string& name, const Json& asked) {
   const fs::path file = folder(name) / kExperimentFile;
   Document d = read_toml(file);
   const std::vector<ChangeConflict> conflicts = apply_changes(d.root, changes);
-  if (conflicts.empty()) {
-    d.name = kExperimentFile;
-    d.origin.clear();  // lines of the file before
-    (void)read_experiment(d);
-    write_file(file, to_toml(d.root));
-    return read_locked(name);
-  }
+  if (conflicts.empty()) write_locked(name, std::move(d));
   Json answer = read_locked(name);
+  if (conflicts.empty()) return answer;
   answer["conflicts"] = Json::array();
   for (const ChangeConflict& c : conflicts) answer["conflicts"].push_back({{"path", c.path}, {"now", c.now}});
   return answer;
+}
+
+void ExperimentStore::add_video(const std::string& name, const std::string& file, const std::string& drop) {
+  const std::lock_guard lock(mutex_);
+  Document d = read_toml(folder(name) / kExperimentFile);
+  Json video = {{"file", file}};
+  if (!drop.empty()) video["drop"] = drop;
+  if (!d.root.contains("video")) d.root["video"] = Json::array();
+  d.root["video"].push_back(std::move(video));
+  write_locked(name, std::move(d));
+}
+
+void ExperimentStore::write_locked(const std::string& name, Document d) {
+  const fs::path file = folder(name) / kExperimentFile;
+  d.name = kExperimentFile;
+  d.origin.clear();  // lines of the file before
+  check_videos(file, read_experiment(d));
+  write_file(file, to_toml(d.root));
+  changed_(name);
+}
+
+// A video that a page names may lie in another folder of the workspace, but not outside of what pages may
+// read.
+void ExperimentStore::check_videos(const fs::path& file, const Experiment& e) const {
+  for (const ExperimentVideo& v : e.videos)
+    if (!workspace_.may_read(video_path(file, v)))
+      throw Error(Errc::usage, v.file,
+                  "is neither in the folder in which the lab was started nor in a folder given by "
+                  "--allow");
 }
 
 }  // namespace faba

@@ -1,10 +1,12 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <string>
 
 #include "core/toml.h"
 #include "server/workspace.h"
+#include "study/experiment/experiment.h"
 
 namespace faba {
 
@@ -12,7 +14,9 @@ namespace faba {
 /// change one experiment. Thread-safe.
 class ExperimentStore {
  public:
-  explicit ExperimentStore(const Workspace& workspace) : workspace_(workspace) {}
+  /// `changed` is called with the name of an experiment after each change.
+  ExperimentStore(const Workspace& workspace, std::function<void(const std::string& name)> changed)
+      : workspace_(workspace), changed_(std::move(changed)) {}
 
   /// [{"name", "title", "drops", "videos"} or {"name", "error"}], newest first.
   Json list() const;
@@ -24,14 +28,20 @@ class ExperimentStore {
   /// Applies the `changes` of a request. The answer of read(), or {"conflicts": [{"path", "now"}]} with it if
   /// a change was refused. Throws Error(usage) if the changed experiment would be invalid.
   Json change(const std::string& name, const Json& asked);
+  /// Adds a video that no page has changed yet. `file`: relative to the folder of the experiment, or
+  /// absolute.
+  void add_video(const std::string& name, const std::string& file, const std::string& drop);
 
   /// Its folder. Throws Error(input) if there is no such experiment.
   std::filesystem::path folder(const std::string& name) const;
 
  private:
   Json read_locked(const std::string& name) const;
+  void write_locked(const std::string& name, Document d);
+  void check_videos(const std::filesystem::path& file, const Experiment& e) const;
 
   const Workspace& workspace_;
+  std::function<void(const std::string& name)> changed_;
   mutable std::mutex mutex_;
 };
 

@@ -71,7 +71,9 @@ Schema<Adapted::Params> Adapted::schema() {
            {.min = 0,
             .max = 1000,
             .doc = "Maximum innate speed in px per iteration, rounded to an integer",
-            .source = "thesis: 8.9937 fitted (Fig. 4.16)"})
+            .source = "thesis: 8.9937 fitted (Fig. 4.16)",
+            .role = Role::speed,
+            .title = "Maximum innate speed"})
       .add("noise_amplitude", &Params::noise_amplitude,
            {.min = 0,
             .max = 1000,
@@ -86,7 +88,8 @@ Schema<Adapted::Params> Adapted::schema() {
            {.min = 1,
             .max = 100,
             .doc = "Iterations for which a drawn velocity is kept",
-            .source = "thesis 3.3.3 (A3)"})
+            .source = "thesis 3.3.3 (A3)",
+            .title = "Iterations per drawn velocity"})
       .add("continuous_speed", &Params::continuous_speed,
            {.doc = "Innate speeds are real numbers in [0, max_speed] instead of integers"})
       .note([](const Params& p) -> std::string {

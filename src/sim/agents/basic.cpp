@@ -61,13 +61,17 @@ Schema<Basic::Params> Basic::schema() {
       .add("max_speed", &Params::max_speed,
            {.min = 0,
             .max = 1000,
-            .doc = "Amplitude of the noise in px per iteration, rounded to an integer",
-            .source = "thesis: 8.1181 fitted (Fig. 4.15)"})
+            .doc = "Amplitude of the noise in px per iteration, rounded to an integer; not a swimming speed: "
+                   "the drift does not depend on it",
+            .source = "thesis: 8.1181 fitted (Fig. 4.15)",
+            .role = Role::speed,
+            .title = "Noise amplitude"})
       .add("hold", &Params::hold,
            {.min = 1,
             .max = 100,
             .doc = "Iterations for which a drawn velocity is kept",
-            .source = "thesis 3.3.3 (A3)"})
+            .source = "thesis 3.3.3 (A3)",
+            .title = "Iterations per drawn velocity"})
       .validity(
           "The model is a random walk with drift. It has no heading and no turning time, and its drift does "
           "not depend on max_speed.");

@@ -180,7 +180,12 @@ void describe_body(DipoleSchema& s) {
 // Parameters of speeds and random turning.
 void describe_swimming(DipoleSchema& s) {
   s.add("speed", &DipoleParams::speed,
-        {.unit = "m/s", .min = 0, .max = 1e-2, .doc = "Mean swimming speed", .source = "thesis: 186 um/s"})
+        {.unit = "m/s",
+         .min = 0,
+         .max = 1e-2,
+         .doc = "Mean swimming speed",
+         .source = "thesis: 186 um/s",
+         .role = Role::speed})
       .add("speed_sd", &DipoleParams::speed_sd,
            {.unit = "m/s",
             .min = 0,
@@ -197,7 +202,8 @@ void describe_swimming(DipoleSchema& s) {
            {.min = 0,
             .max = 1,
             .doc = "Fraction of motile cells; the others turn with the field and diffuse, but do not swim",
-            .source = "assumed"})
+            .source = "assumed",
+            .title = "Motile fraction"})
       .add("reversal_rate", &DipoleParams::reversal_rate,
            {.unit = "1/s",
             .min = 0,

@@ -67,4 +67,6 @@ std::string override_note(const std::filesystem::path& path, const RunVideo& vid
                      fmt::join(used, " and "), used.size() == 1 ? "is" : "are", fmt::join(options, ", "));
 }
 
+void check_has_frames(const std::filesystem::path& file) { (void)VideoReader(file); }
+
 }  // namespace faba

@@ -28,6 +28,10 @@ bool has_camera_video(const std::filesystem::path& run);
 /// Throws Error(input, path) for a run without a video, or whose video is a drawing.
 RunVideo run_video(const std::filesystem::path& path);
 
+/// Throws Error(input) with the reason unless the file is a video, a picture sequence or a picture that can
+/// be read.
+void check_has_frames(const std::filesystem::path& file);
+
 /// A note when options override the frame rate or the scale that a run or the metadata of a file states:
 /// `fps` > 0 in Hz, and `um_per_px`. Empty when nothing is stated, or the values are the same.
 std::string override_note(const std::filesystem::path& path, const RunVideo& video, double fps,

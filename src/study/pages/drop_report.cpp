@@ -73,4 +73,8 @@ ProposedDrop report_proposed_drop(const std::filesystem::path& picture, const st
   return drop;
 }
 
+void write_displayed_picture(const std::filesystem::path& picture, const std::filesystem::path& png) {
+  write_png(png, read_displayed(picture));
+}
+
 }  // namespace faba

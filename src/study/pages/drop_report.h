@@ -31,6 +31,10 @@ DropEdge report_drop(const std::filesystem::path& picture, const std::filesystem
 ProposedDrop report_proposed_drop(const std::filesystem::path& picture, const std::string& name,
                                   const std::filesystem::path& shown);
 
+/// Writes a picture, or the first frame of a video, as PNG for display, contrast-stretched unless it has
+/// colours. Throws Error(input) when the picture is not usable.
+void write_displayed_picture(const std::filesystem::path& picture, const std::filesystem::path& png);
+
 /// File names of the stages, in order.
 inline constexpr std::array kDropStages{"1-grey.png", "2-edges.png", "3-lines.png", "4-circle.png"};
 

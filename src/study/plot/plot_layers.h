@@ -31,6 +31,7 @@ double character_count(std::string_view text);
 /// A point of the figure: x right, y down.
 struct PlotPoint {
   double x, y;
+  int index = -1;  ///< in the data of its layer
 };
 
 /// A range of data, initially empty. Ignores non-finite values and values whose differences could overflow.
@@ -65,6 +66,9 @@ std::string rectangle(const std::string& look, PlotPoint a, PlotPoint b);
 void layer_extent(const Plot::Layer& layer, Range& x, Range& y);
 std::string layer_drawing(const Plot::Layer& layer, Ink ink, const Map& map);
 std::string layer_swatch(const Plot::Layer& layer, Ink ink);
+/// The kind of a layer and its values as attributes (see plot_data.h), for example ` data-kind="line"
+/// data-x="..."`.
+std::string layer_data(const Plot::Layer& layer, const Map& map);
 /// Whether a layer draws at least one value; outlines, bands and rules are not values.
 bool layer_has_points(const Plot::Layer& layer);
 

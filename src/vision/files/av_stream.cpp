@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -71,6 +72,7 @@ struct AvStream::Impl {
   bool read_packet();
   bool take_packet();
   std::int64_t skip_to(double t_s);
+  bool seek(double t_s);
   double time_of_packet(const AVPacket& packet, std::int64_t index) const;
   void end_of_file(int result);
   void send(AVPacket& packet);
@@ -248,6 +250,20 @@ std::int64_t AvStream::Impl::skip_to(double t_s) {
   return skipped;
 }
 
+bool AvStream::Impl::seek(double t_s) {
+  if (still || fps <= 0 || first_stamp == AV_NOPTS_VALUE) return false;
+  const auto stamp = first_stamp + std::llround(t_s / av_q2d(stream->time_base));
+  if (FABA_AV(av_seek_frame)(container.get(), stream->index, stamp, AVSEEK_FLAG_BACKWARD) < 0) return false;
+  FABA_AV(avcodec_flush_buffers)(codec.get());
+  skimmed.clear();
+  FABA_AV(av_packet_unref)(held.get());
+  holding = all_read = frame_waiting = need_key_packet = need_key_frame = false;
+  // The numbers of packets and frames are not known exactly any more; times come from the time stamps.
+  delivered = sent = std::max<std::int64_t>(1, std::llround(t_s * fps));
+  last_t = -std::numeric_limits<double>::infinity();
+  return true;
+}
+
 // Reads the next packet of the stream into `incoming`. At the end of a truncated file the held packet is
 // dropped.
 bool AvStream::Impl::read_packet() {
@@ -372,6 +388,8 @@ bool AvStream::Impl::next(RawFrame& out, double& t_s) {
 }
 
 std::int64_t AvStream::skip_to(double t_s) { return impl_->skip_to(*(impl_->skipped_to = t_s)); }
+
+bool AvStream::seek(double t_s) { return impl_->threads == 1 && impl_->seek(t_s); }
 
 bool AvStream::next(double& t_s) {
   try {

@@ -27,6 +27,7 @@ class AvStream {
   double fps() const;                               ///< 0 for a still image
   std::int64_t frames_in_header() const;            ///< 0 when not stated
   std::int64_t skip_to(double t_s);                 ///< see VideoReader::skip_to
+  bool seek(double t_s);                            ///< see VideoReader::seek
   bool next(double& t_s);                           ///< see VideoReader::next
   void picture(GrayF& frame);                       ///< see VideoReader::picture
   bool read(GrayF& frame, double& t_s);             ///< see VideoReader::read

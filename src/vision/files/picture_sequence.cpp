@@ -233,4 +233,11 @@ bool PictureSequence::read(GrayF& frame, double& t_s) {
   return false;
 }
 
+void PictureSequence::seek(double t_s) {
+  constexpr double kRounding = 1e-6;  // frame intervals, of times that are computed from them
+  const double step = t_s * (fps_ > 0 ? fps_ : 1) + kRounding;
+  const auto after = std::upper_bound(step_index_.begin(), step_index_.end(), step);
+  next_ = std::size_t(std::max<std::ptrdiff_t>(0, after - step_index_.begin() - 1));
+}
+
 }  // namespace faba

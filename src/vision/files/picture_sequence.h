@@ -42,6 +42,8 @@ class PictureSequence {
   /// See VideoReader::read. An unreadable picture is skipped and counted. Throws Error(Errc::input, file)
   /// when a picture differs in size or bit depth from the first, or has several pages.
   bool read(GrayF& frame, double& t_s);
+  /// Goes to the last picture not after `t_s`: the next read() returns it.
+  void seek(double t_s);
   std::int64_t damaged_pictures() const { return damaged_; }
   const std::string& damage() const { return damage_; }
 

@@ -106,7 +106,8 @@ struct TiffStack::Impl {
   int first_width = 0, first_height = 0, first_bits = 0;
   PictureMetadata metadata;
   bool at_end = false, page_unread = true;
-  int page_number = 1;
+  int page_number = 1;          // of the file, from 1
+  std::int64_t page_index = 0;  // from 0, without reduced-resolution pages
   std::vector<std::uint8_t> buffer;
   std::vector<float> values;
 
@@ -178,6 +179,7 @@ void TiffStack::Impl::advance() {
     kind = 0;
     TIFFGetFieldDefaulted(tiff.get(), TIFFTAG_SUBFILETYPE, &kind);
   } while ((kind & FILETYPE_REDUCEDIMAGE) != 0);
+  ++page_index;
   read_layout();
 }
 
@@ -307,6 +309,21 @@ int TiffStack::pages() const {
   const auto count = TIFFNumberOfDirectories(impl_->tiff.get());
   impl_->message.clear();
   return static_cast<int>(count);
+}
+
+std::int64_t TiffStack::seek(std::int64_t page) {
+  Impl& self = *impl_;
+  self.message.clear();
+  if (page < self.page_index || self.at_end) {
+    if (TIFFSetDirectory(self.tiff.get(), 0) == 0) self.refuse("the first page cannot be read");
+    self.at_end = false;
+    self.page_number = 1;
+    self.page_index = 0;
+    self.read_layout();
+  }
+  while (self.page_index < page && TIFFLastDirectory(self.tiff.get()) == 0) self.advance();
+  self.page_unread = true;
+  return self.page_index;
 }
 
 bool TiffStack::read(GrayF& page) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 
@@ -37,6 +38,9 @@ class TiffStack {
   /// float TIFF are kept. Throws Error(Errc::input, path) when the page is damaged, truncated or not
   /// supported.
   bool read(GrayF& page);
+  /// Goes to a page, counted from 0 without reduced-resolution pages, or to the last one if there are fewer:
+  /// the next read() returns it. Returns its number. Throws as read().
+  std::int64_t seek(std::int64_t page);
   /// The next page in 8-bit colours, for display, without reading it; empty for grey pages.
   void read_colours(RgbImage& page);
 

@@ -1,6 +1,7 @@
 #include "vision/files/video_reader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -26,26 +27,33 @@ struct VideoReader::Impl {
   std::int64_t pages_read = 0;
   GrayF first_page;  // read by the constructor, which refuses an unreadable stack
   GrayF current;     // frame of next(), of stacks and sequences
-  bool stack_truncated = false;
+  bool stack_truncated = false, stack_stopped = false;
   std::string stack_damage;
 
   bool read_page(GrayF& frame, double& t_s);
+  bool seek_page(double t_s);
+  void stop(const Error& error);
   double rescaled(double t_s) const;  // time of a stack or stream at the overridden rate
   double rescale() const;
 };
 
+// A stack is read up to its first damaged page.
+void VideoReader::Impl::stop(const Error& error) {
+  stack_truncated = stack_stopped = true;
+  stack_damage = std::string(error.what()).substr(error.where().size() + 2);
+}
+
 bool VideoReader::Impl::read_page(GrayF& frame, double& t_s) {
-  if (stack_truncated) return false;
+  if (stack_stopped) return false;
   try {
-    if (pages_read == 0) {
+    if (!first_page.empty()) {
       std::swap(frame, first_page);
       first_page = {};
     } else if (!stack->read(frame)) {
       return false;
     }
   } catch (const Error& error) {
-    stack_truncated = true;
-    stack_damage = std::string(error.what()).substr(error.where().size() + 2);
+    stop(error);
     return false;
   }
   if (frame.width != width || frame.height != height) {
@@ -119,6 +127,28 @@ double VideoReader::Impl::rescaled(double t_s) const { return t_s * rescale(); }
 
 std::int64_t VideoReader::skip_to(double t_s) {
   return impl_->stream ? impl_->stream->skip_to(t_s / impl_->rescale()) : 0;
+}
+
+bool VideoReader::Impl::seek_page(double t_s) {
+  constexpr double kRounding = 1e-6;  // frame intervals, of times that are computed from them
+  const double rate = stack->fps() > 0 ? stack->fps() : 1;
+  first_page = {};
+  stack_stopped = false;
+  try {
+    constexpr double kMostPages = 1e9;
+    pages_read = stack->seek(std::int64_t(std::clamp(std::floor(t_s * rate + kRounding), 0.0, kMostPages)));
+  } catch (const Error& error) {
+    stop(error);
+  }
+  return true;
+}
+
+bool VideoReader::seek(double t_s) {
+  t_s /= impl_->rescale();
+  if (impl_->stack) return impl_->seek_page(t_s);
+  if (impl_->stream) return impl_->stream->seek(t_s);
+  impl_->sequence->seek(t_s * impl_->rescale());
+  return true;
 }
 
 bool VideoReader::next(double& t_s) {

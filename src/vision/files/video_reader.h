@@ -48,6 +48,13 @@ class VideoReader {
   /// frame ahead, and for TIFF stacks and picture sequences. Damage in skipped frames is not detected.
   std::int64_t skip_to(double t_s);
 
+  /// Goes to another part of the video, for display: read() then returns the frame displayed at `t_s`, or
+  /// frames before it first (from a key frame). Some formats may start after `t_s`; seek to an earlier time
+  /// then. Returns false without an effect when the file has no time stamps or several threads decode; open
+  /// it again then. Damage in skipped frames is not detected, and damaged frames that are read twice count
+  /// twice.
+  bool seek(double t_s);
+
   /// Reads the next frame into `frame` (resized as needed) and its presentation time in s. The first frame
   /// has time 0; times come from the time stamps of the file, so variable frame rates are supported. Without
   /// time stamps t_s is frame / fps(), or the frame index when fps() is 0. Returns false after the last

@@ -128,8 +128,10 @@ void describe_light(Schema<MicroscopeParams>& s) {
       .add(
           "background", &P::background,
           {.doc =
-               "Video of the same size as the view; its temporal median and noise replace level, vignetting, "
-               "unevenness, edge and noise. Path relative to the scene file or to the working directory"});
+               "Video or picture of the same size as the view; its temporal median and noise (0 for one "
+               "picture) "
+               "replace level, vignetting, unevenness, edge and noise. Path relative to the scene file or to "
+               "the working directory"});
 }
 
 void describe_camera(Schema<MicroscopeParams>& s) {

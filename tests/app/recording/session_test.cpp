@@ -3,6 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "app/recording/checkpoint.h"
 #include "core/h5/h5.h"
 #include "tests/app/run_directory.h"
@@ -59,6 +62,97 @@ TEST_CASE("a complete run directory has all files and no marker") {
   CHECK(tracks.table("position_px").rows() == 80);
   CHECK(tracks.table("position_px").row_size() == 240);
   CHECK(tracks.table("responding").rows() == 80);
+}
+
+TEST_CASE("a part of a run is recorded from the same run: rows, positions, frames and state hash are equal") {
+  const TestFolder f;
+  Scenario scene = scenario_from(kScene);
+  scene.record.flow = true;
+  Session complete = Session::begin(scene, 7, options(f.path / "complete"));
+  REQUIRE(complete.run());
+  scene.record.from = 1.03;  // the first frame after it is the one at 1.05 s
+  scene.record.to = 3;
+  Session part = Session::begin(scene, 7, options(f.path / "part", 2));
+  REQUIRE(part.run());
+  CHECK(state_hash(part) == state_hash(complete));
+
+  const Table all = complete.series(), some = part.series();
+  REQUIRE(some.size() == 39);
+  CHECK(some.column("frame")[0] == 21);
+  CHECK(some.column("t_s")[38] == doctest::Approx(2.95));
+  for (const std::string& name : some.names())
+    for (std::size_t k = 0; k < some.size(); ++k) {
+      const double a = some.column(name)[k], b = all.column(name)[k + 21];
+      REQUIRE((a == b || (std::isnan(a) && std::isnan(b))));
+    }
+  const H5File a = H5File::open(f.path / "part/tracks.h5"), b = H5File::open(f.path / "complete/tracks.h5");
+  const H5Table ta = a.table("position_px"), tb = b.table("position_px");
+  REQUIRE(ta.rows() == 39);
+  std::vector<float> ra(ta.row_size()), rb(tb.row_size());
+  ta.read<float>(38, ra);
+  tb.read<float>(59, rb);
+  CHECK(ra == rb);
+  VideoReader va(f.path / "part/video.avi"), vb(f.path / "complete/video.avi");
+  GrayF pa, pb;
+  double t = 0;
+  for (int k = 0; k <= 21; ++k) REQUIRE(vb.read(pb, t));
+  REQUIRE(va.read(pa, t));
+  CHECK(pa.px == pb.px);
+  CHECK(H5File::open(f.path / "part/flow.h5").table("u_px").rows() == 38);
+
+  const Manifest m = part.manifest();
+  CHECK(m.frames == 39);
+  CHECK(m.duration_s == doctest::Approx(1.95));
+  REQUIRE(m.recorded_s);
+  CHECK(m.recorded_s->x == doctest::Approx(1.05));
+  CHECK(m.recorded_s->y == doctest::Approx(3));
+  CHECK(manifest_json(m)["recorded_s"].size() == 2);
+  CHECK_FALSE(manifest_json(complete.manifest()).contains("recorded_s"));
+  CHECK(part.frames().size() == 6);
+  CHECK(std::any_of(m.notes.begin(), m.notes.end(), [](const std::string& note) {
+    return note.find("the part from 1.05 s to 3 s of a run of 4 s") != note.npos;
+  }));
+}
+
+TEST_CASE("a run that records a part, stopped before and in the part and resumed, has the same files") {
+  const TestFolder f;
+  Scenario scene = scenario_from(kScene);
+  scene.record.from = 1;
+  Session complete = Session::begin(scene, 7, options(f.path / "complete"));
+  REQUIRE(complete.run());
+  for (const std::uint64_t stop_at : {5u, 40u}) {
+    INFO("stopped after frame ", stop_at);
+    const auto dir = f.path / ("stopped-" + std::to_string(stop_at));
+    {
+      std::atomic<bool> stop{false};
+      RunOptions o = options(dir);
+      o.stop = &stop;
+      o.progress = [&](std::uint64_t done, std::uint64_t) { stop = done == stop_at; };
+      Session s = Session::begin(scene, 7, o);
+      CHECK_FALSE(s.run());
+      CHECK(s.manifest().frames == (stop_at < 20 ? 0 : stop_at - 20));
+    }
+    Session resumed = Session::resume(builtin_parts(), options(dir));
+    REQUIRE(resumed.run());
+    CHECK(state_hash(resumed) == state_hash(complete));
+    CHECK(read_file(dir / "series.csv") == read_file(f.path / "complete/series.csv"));
+    CHECK(read_file(dir / "video.avi") == read_file(f.path / "complete/video.avi"));
+    CHECK(H5File::open(dir / "tracks.h5").table("position_px").rows() == 60);
+  }
+}
+
+TEST_CASE("a recorded part must contain a frame of the run") {
+  const std::string scene = std::string("duration = 4\n[[swarm]]\ncount = 1\n[record]\n");
+  const auto refused = [&](const std::string& record, const char* why) {
+    CHECK_THROWS_WITH_AS(scenario_from(scene + record), doctest::Contains(why), const Error&);
+  };
+  refused("from = 4", "record.from: 4 s is not before the end of the run at 4 s");
+  refused("from = 2\nto = 2", "record.to: 2 s is not after record.from = 2 s");
+  refused("from = 2\nto = 1", "record.to: 1 s is not after record.from = 2 s");
+  refused("from = -1", "record.from");
+  CHECK_NOTHROW(scenario_from(scene + "from = 2\nto = 90"));
+  // Not part of what is simulated.
+  CHECK(scenario_from(scene + "from = 2").hash() == scenario_from(scene).hash());
 }
 
 TEST_CASE("the resolved scenario of a run gives the same run again") {

@@ -20,6 +20,8 @@ export interface Schema {
   /** Traits of a part, such as "open_loop"; see web/protocol.md. */
   'x-traits'?: string[];
   'x-unit'?: string;
+  /** Role of a value, such as "speed", for code that does not know the part. */
+  'x-role'?: string;
   /** Source of the default; of a preset: the source of each preset. */
   'x-source'?: string | Record<string, string>;
   'x-validity'?: string;
@@ -103,24 +105,43 @@ export function same(a: any, b: any, s: Schema): boolean {
   return JSON.stringify(a) === JSON.stringify(b);
 }
 
+/** The table of a part: `model = "x"` is short for `model = { type = "x" }`. */
+export const partTable = (value: any): Record<string, any> => (typeof value === 'object' && value ? value : { type: typeof value === 'string' ? value : '' });
+
+export interface PresetState {
+  /** Name of the preset; empty: none. */
+  preset: string;
+  /** Keys with other values than those of the preset. */
+  changed: string[];
+  /** All values are the defaults of the schema. */
+  isDefault: boolean;
+}
+
 /**
- * The preset of a part's table: the one that it names, or the first one with exactly its values, because a resolved scenario has
- * all values and no preset. Empty if no preset matches.
+ * The preset of a part's table: the one that it names, or the one from which the fewest values differ, because a resolved scenario
+ * has all values and no preset. Fewer values must differ from the preset than from the defaults, and at most half of those that
+ * distinguish the presets.
  */
-export function presetOf(part: Schema | undefined, table: Record<string, any>): string {
-  if (typeof table.preset === 'string') return table.preset;
+export function presetState(part: Schema | undefined, table: Record<string, any>): PresetState {
   const { preset, type: _, ...properties } = part?.properties ?? {};
-  return preset?.enum?.find((name) => hasValues(properties, table, preset['x-values']?.[name] ?? {})) ?? '';
+  const names = preset?.enum ?? [], values = (name: string) => preset?.['x-values']?.[name] ?? {};
+  const custom = different(properties, table, {}).length, isDefault = custom === 0;
+  if (typeof table.preset === 'string') {
+    const given = values(table.preset); // values that the table does not give are those of the preset
+    return { preset: table.preset, changed: different(properties, { ...given, ...table }, given), isDefault: false };
+  }
+  const distinctive = new Set(names.flatMap((a) => names.flatMap((b) => different(properties, values(a), values(b)))));
+  const best = names
+    .map((name) => ({ preset: name, changed: different(properties, table, values(name)) }))
+    .filter(({ changed }) => !changed.length || (changed.length < custom && changed.filter((k) => distinctive.has(k)).length <= distinctive.size / 2))
+    .sort((a, b) => a.changed.length - b.changed.length)[0];
+  return { ...(best ?? { preset: '', changed: [] }), isDefault };
 }
-/** Whether all values of the table are the defaults of the schema. */
-export function hasDefaults(part: Schema | undefined, table: Record<string, any>): boolean {
-  const { preset: _, type: __, ...properties } = part?.properties ?? {};
-  return hasValues(properties, table, {});
-}
-function hasValues(properties: Record<string, Schema>, table: Record<string, any>, wanted: Record<string, any>): boolean {
-  return Object.entries(properties).every(([key, s]) => {
-    const is = table[key] ?? s.default, should = wanted[key] ?? s.default;
-    return is === undefined || should === undefined ? is === should : same(is, should, s);
+/** Keys of the values of a table that differ from the wanted ones; a value that is not given is the default. */
+function different(properties: Record<string, Schema>, table: Record<string, any>, wanted: Record<string, any>): string[] {
+  return Object.keys(properties).filter((key) => {
+    const s = properties[key], is = table[key] ?? s.default, should = wanted[key] ?? s.default;
+    return is === undefined || should === undefined ? is !== should : !same(is, should, s);
   });
 }
 

@@ -1,21 +1,56 @@
 // Texts of the page in English and Brazilian Portuguese, one catalogue for each part of the page; program.ts has
 // translations of the texts of the program.
 
+import * as analyse from './analyse';
 import * as app from './app';
 import * as bench from './bench';
 import * as experiments from './experiments';
-import * as gallery from './gallery';
-import * as runs from './runs';
-import * as jobs from './jobs';
-import * as analyse from './analyse';
 import * as form from './form';
+import * as gallery from './gallery';
+import * as jobs from './jobs';
 import * as lab from './lab';
+import * as own from './own';
+import * as result from './result';
+import * as runs from './runs';
+import * as tracks from './tracks';
+import * as video from './video';
 import * as workbench from './workbench';
 
 export { kProgram } from './program';
+export { kTitles } from './titles';
 
-const en = { ...app.en, ...bench.en, ...experiments.en, ...gallery.en, ...runs.en, ...jobs.en, ...analyse.en, ...form.en, ...lab.en, ...workbench.en };
-const pt = { ...app.pt, ...bench.pt, ...experiments.pt, ...gallery.pt, ...runs.pt, ...jobs.pt, ...analyse.pt, ...form.pt, ...lab.pt, ...workbench.pt };
+const en = {
+  ...analyse.en,
+  ...app.en,
+  ...bench.en,
+  ...experiments.en,
+  ...form.en,
+  ...gallery.en,
+  ...jobs.en,
+  ...lab.en,
+  ...own.en,
+  ...result.en,
+  ...runs.en,
+  ...tracks.en,
+  ...video.en,
+  ...workbench.en,
+};
+const pt = {
+  ...analyse.pt,
+  ...app.pt,
+  ...bench.pt,
+  ...experiments.pt,
+  ...form.pt,
+  ...gallery.pt,
+  ...jobs.pt,
+  ...lab.pt,
+  ...own.pt,
+  ...result.pt,
+  ...runs.pt,
+  ...tracks.pt,
+  ...video.pt,
+  ...workbench.pt,
+};
 
 export type Word = keyof typeof en;
 export type Language = 'en' | 'pt';

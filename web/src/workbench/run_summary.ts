@@ -1,6 +1,6 @@
 // Models and controller of a scenario, as named in the header of the workbench.
 
-import { presetOf, variant, type Schema } from '../form/schema';
+import { presetState, variant, type Schema } from '../form/schema';
 import type { Say } from '../i18n';
 import { defaultPart, handController, isOpenLoop, sectionOf, typeOf } from '../part_traits';
 import { lengthText, type LengthUnit } from '../units';
@@ -15,7 +15,7 @@ export function modelsOf(schema: Schema | null, scenario: any): ModelName[] {
   const section = schema?.properties?.swarm?.items?.properties?.model;
   const all: ModelName[] = (scenario.swarm ?? []).map(({ model }: any) => {
     const type = typeOf(model) ?? defaultPart(section), table = typeof model === 'object' ? model : {};
-    const preset = type && section ? presetOf(variant(section, type), table) : '';
+    const preset = type && section ? presetState(variant(section, type), table).preset : '';
     return { type: type ?? '–', ...(preset ? { preset } : {}) };
   });
   return all.filter((m, i) => all.findIndex((o) => o.type === m.type && o.preset === m.preset) === i);

@@ -26,7 +26,19 @@ Schema<Record> Record::schema() {
            {.unit = "s",
             .min = 0.1,
             .max = 1e6,
-            .doc = "Wall time between checkpoints; a crash loses at most this time"});
+            .doc = "Wall time between checkpoints; a crash loses at most this time"})
+      .add("from", &Record::from,
+           {.unit = "s",
+            .min = 0,
+            .max = 1e6,
+            .doc = "Simulated time of the first recorded frame: the run starts at 0 s, and its files contain "
+                   "the part from here on"})
+      .add("to", &Record::to,
+           {.unit = "s",
+            .min = 0,
+            .max = 1e6,
+            .doc = "Simulated time after the last recorded frame; default: the end of the run, which does "
+                   "not end here"});
 }
 
 }  // namespace faba

@@ -1,7 +1,16 @@
 #pragma once
+#include <cstdint>
+#include <limits>
+#include <optional>
+
 #include "core/schema.h"
 
 namespace faba {
+
+/// Frames `first` to `end` - 1 of a run.
+struct FrameRange {
+  std::uint64_t first = 0, end = std::numeric_limits<std::uint64_t>::max();
+};
 
 /// The table [record]: files that a run records.
 struct Record {
@@ -15,6 +24,8 @@ struct Record {
   bool as_seen = false;
   bool flow = false;
   double checkpoint = 10;
+  double from = 0;           ///< s, simulated time
+  std::optional<double> to;  ///< s; empty: the end of the run
   static Schema<Record> schema();
 };
 

@@ -8,7 +8,8 @@ Schema<ScaleParams> ScaleParams::schema() {
            {.min = 1e-3,
             .max = 1e3,
             .doc = "Micrometres per pixel",
-            .source = "thesis's table 4.1 by regression (A20); the thesis itself used 0.8015"})
+            .source = "thesis's table 4.1 by regression (A20); the thesis itself used 0.8015",
+            .title = "Image scale"})
       .add("nominal_um_per_px", &ScaleParams::nominal_um_per_px,
            {.min = 1e-3,
             .max = 1e3,
@@ -21,7 +22,8 @@ Schema<ScaleParams> ScaleParams::schema() {
            {.unit = "s",
             .min = 1e-5,
             .max = 100,
-            .doc = "Duration of one iteration of the published models; default: one frame period"})
+            .doc = "Duration of one iteration of the published models; default: one frame period",
+            .title = "Duration of one iteration"})
       .add("field_unit", &ScaleParams::field_unit,
            {.unit = "T",
             .min = 1e-9,

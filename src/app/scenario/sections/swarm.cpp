@@ -6,13 +6,17 @@ namespace faba {
 
 Schema<Swarm::Params> Swarm::schema() {
   return Schema<Params>("swarm", "One kind of cells in the drop")
-      .add("count", &Params::count, {.min = 1, .max = 5e7, .doc = "Number of cells"})
+      .add("count", &Params::count,
+           {.min = 1, .max = 5e7, .doc = "Number of cells", .title = "Number of cells"})
       .add("polarity", &Params::polarity,
            {.doc = "north: swims along the field; south: against it",
             .source = "the thesis's cells are south-seeking (A0)",
             .choices = {"north", "south"}})
       .add("responding", &Params::responding,
-           {.min = 0, .max = 1, .doc = "Fraction of cells that respond to the field"})
+           {.min = 0,
+            .max = 1,
+            .doc = "Fraction of cells that respond to the field",
+            .title = "Responsive fraction"})
       .add("heading", &Params::heading,
            {.unit = "rad",
             .min = -10,

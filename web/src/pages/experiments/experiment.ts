@@ -1,5 +1,7 @@
 // Experiments as the program sends them, and changes to them.
 
+import { amount } from '../../form/schema';
+
 /** An entry of the list. */
 export interface ExperimentCard {
   name: string;
@@ -7,4 +9,95 @@ export interface ExperimentCard {
   drops: number;
   videos: number;
   error?: string;
+}
+export interface Drop {
+  name: string;
+  polarity?: 'unknown' | 'north' | 'south';
+  note?: string;
+}
+export interface Video {
+  file: string;
+  drop?: string;
+  exposure?: string | number;
+  reversal?: string | number;
+  field_direction?: string | number;
+  field_strength?: string | number;
+  from?: string | number;
+  to?: string | number;
+  um_per_px?: number;
+  note?: string;
+}
+export interface Experiment {
+  title?: string;
+  note?: string;
+  objective?: string;
+  um_per_px?: number;
+  um_per_px_source?: string;
+  noise?: string;
+  drop?: Drop[];
+  video?: Video[];
+}
+/** A change of one value: `from` is the value that the page has seen; undefined removes. */
+export interface Change {
+  path: string[];
+  from?: unknown;
+  to?: unknown;
+}
+export interface Conflict {
+  path: string[];
+  now: unknown;
+}
+
+const kIdentity: Record<string, string> = { drop: 'name', video: 'file' };
+
+/** The value at a path of an experiment; undefined if it has none. */
+export function valueAt(e: Experiment, [key, item, field]: string[]): unknown {
+  const top = (e as Record<string, any>)[key];
+  if (item === undefined) return top;
+  const found = (top as Record<string, any>[] | undefined)?.find((one) => one[kIdentity[key]] === item);
+  return field === undefined ? found : found?.[field];
+}
+
+/** The changes that undo others. */
+export const inverse = (changes: Change[]): Change[] => changes.map(({ path, from, to }) => ({ path, from: to, to: from })).reverse();
+
+type Value = string | number | undefined;
+/** A time, s; undefined for an empty or invalid text. */
+export const seconds = (value: Value) => amount(value, 's') ?? undefined;
+/** An angle, degrees; a number is in rad. */
+export function degrees(value: Value): number | undefined {
+  const angle = amount(value, 'rad');
+  return angle === null ? undefined : (angle * 180) / Math.PI;
+}
+
+/** Direction in which the cells swim after the reversal, degrees counter-clockwise from the right; undefined if it is not known. */
+export function swimmingDirection(e: Experiment, v: Video): number | undefined {
+  const field = degrees(v.field_direction), polarity = e.drop?.find((d) => d.name === v.drop)?.polarity;
+  if (field === undefined || (polarity !== 'north' && polarity !== 'south')) return undefined;
+  return (((field + (polarity === 'south' ? 180 : 0)) % 360) + 360) % 360;
+}
+
+/** The first letter from A that no drop has as its name; after Z a number. */
+export function nextDropName(drops: Drop[]): string {
+  const used = new Set(drops.map((d) => d.name));
+  for (let i = 0; i < 26; ++i) {
+    const name = String.fromCharCode(65 + i);
+    if (!used.has(name)) return name;
+  }
+  let n = 27;
+  while (used.has(String(n))) ++n;
+  return String(n);
+}
+
+/**
+ * Air exposure times from the times of files, for videos of one drop without one: the time after the earliest file with a
+ * known exposure, or after the earliest file. `modified`: Unix time of each file, s.
+ */
+export function proposedExposures(videos: Video[], modified: Record<string, number>): Change[] {
+  const timed = videos.filter((v) => modified[v.file] > 0).sort((a, b) => modified[a.file] - modified[b.file]);
+  const known = timed.find((v) => seconds(v.exposure) !== undefined);
+  const zero = known ? modified[known.file] - seconds(known.exposure)! : timed.length ? modified[timed[0].file] : 0;
+  return timed
+    .filter((v) => v.exposure === undefined && modified[v.file] >= zero)
+    .map((v) => ({ path: ['video', v.file, 'exposure'], to: `${Math.round(modified[v.file] - zero)} s` }));
 }

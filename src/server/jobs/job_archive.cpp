@@ -1,0 +1,108 @@
+#include "server/jobs/job_archive.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "core/error.h"
+#include "core/file.h"
+
+namespace faba {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::array<const char*, 5> kStates = {"waiting", "running", "done", "failed", "cancelled"};
+constexpr std::uintmax_t kLargest = 64u << 20;  // bytes
+
+Job::State state_of(const std::string& word) {
+  const auto at = std::find(kStates.begin(), kStates.end(), word);
+  return at == kStates.end() ? Job::State::failed : Job::State(at - kStates.begin());
+}
+
+// `out`: the directory of the file. What the file states about places outside of it is not used.
+Job read_job(const fs::path& file, const fs::path& out) {
+  const Json j = Json::parse(read_file(file));
+  Job job{.id = j.at("id"), .title = j.at("title"), .words = j.at("words"), .out = out, .kind = j.at("kind")};
+  const fs::path page = fs::path(j.at("page").get<std::string>()).filename();
+  job.page = page.empty() ? fs::path() : out / page;
+  job.work = j.at("work");
+  job.estimate_s = j.at("estimate_s");
+  job.estimate_measured = j.at("estimate_from") == "measured";
+  job.state = state_of(j.at("state"));
+  job.seconds = j.at("seconds");
+  job.ended = j.at("ended");
+  job.error = j.at("error");
+  job.result = j.at("result");
+  return job;
+}
+
+void add_jobs(const fs::path& workspace, const fs::path& folder, std::vector<Job>& jobs) {
+  std::error_code ec;
+  for (const auto& e : fs::directory_iterator(workspace / folder, ec)) {
+    const fs::path file = e.path() / kJobFile;
+    if (!fs::is_regular_file(file, ec) || fs::file_size(file, ec) > kLargest) continue;
+    try {
+      if (Json::parse(read_file(file)).value("listed", true))
+        jobs.push_back(read_job(file, folder / e.path().filename()));
+    } catch (const Json::exception&) {
+      continue;
+    } catch (const Error&) {
+      continue;
+    }
+  }
+}
+
+void write_job(const fs::path& workspace, const Job& job, bool listed) {
+  if (job.kind.empty() || job.out.empty()) return;
+  Json j = job_json(job);
+  j["result"] = job.result;
+  j["listed"] = listed;
+  try {
+    fs::create_directories(workspace / job.out);
+    write_file(workspace / job.out / kJobFile, j.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+  } catch (const std::exception&) {
+    return;
+  }
+}
+
+}  // namespace
+
+Json job_json(const Job& j) {
+  return {{"id", j.id},
+          {"title", j.title},
+          {"words", j.words},
+          {"page", j.page},
+          {"out", j.out},
+          {"kind", j.kind},
+          {"work", j.work},
+          {"estimate_s", j.estimate_s},
+          {"estimate_from", j.estimate_measured ? "measured" : "assumed"},
+          {"state", kStates[std::size_t(j.state)]},
+          {"doing", j.doing},
+          {"done", j.did},
+          {"of", j.of},
+          {"seconds", j.seconds},
+          {"ended", j.ended},
+          {"error", j.error}};
+}
+
+void keep_job(const fs::path& workspace, const Job& job) { write_job(workspace, job, true); }
+void forget_job(const fs::path& workspace, const Job& job) { write_job(workspace, job, false); }
+
+std::vector<Job> kept_jobs(const fs::path& workspace, std::size_t most) {
+  std::vector<Job> jobs;
+  add_jobs(workspace, "runs", jobs);
+  std::error_code ec;
+  for (const auto& e : fs::directory_iterator(workspace / "experiments", ec))
+    add_jobs(workspace, fs::path("experiments") / e.path().filename() / "results", jobs);
+  std::stable_sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.ended < b.ended; });
+  if (jobs.size() > most) jobs.erase(jobs.begin(), jobs.end() - std::ptrdiff_t(most));
+  std::set<int> used;
+  int next = 1;
+  for (const Job& j : jobs) next = std::max(next, j.id + 1);
+  for (Job& j : jobs)
+    if (!used.insert(j.id).second) j.id = next++;
+  return jobs;
+}
+
+}  // namespace faba

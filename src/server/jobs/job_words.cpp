@@ -1,0 +1,195 @@
+#include "server/jobs/job_words.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/units.h"
+
+namespace faba {
+namespace {
+
+using In = JobInput::Kind;
+constexpr std::size_t kMostFiles = 200, kMostCurrents = 64, kLongestWords = 200;
+
+bool is_file(const JobInput& i) {
+  constexpr In kFiles[] = {In::video,       In::picture, In::frame,     In::table,
+                           In::coil_system, In::study,   In::experiment};
+  return std::find(std::begin(kFiles), std::end(kFiles), i.kind) != std::end(kFiles);
+}
+
+// The value as the user sees it, short enough for a message.
+std::string shown(const Json& value) {
+  constexpr std::size_t kLongest = 80;
+  std::string text = value.is_string() ? value.get<std::string>()
+                                       : value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (text.size() > kLongest) text.resize(kLongest);
+  return text;
+}
+
+[[noreturn]] void refuse(const JobInput& i, const std::string& what) {
+  throw Error(Errc::usage, i.key, what);
+}
+
+std::string with_unit(double v, const std::string& unit) {
+  return fmt::format("{:.12g}{}{}", v, unit.empty() ? "" : " ", unit);
+}
+std::string permitted(const JobInput& i) {
+  return fmt::format("it must be {} between {} and {}", i.kind == In::integer ? "an integer" : "a number",
+                     with_unit(i.min, i.unit), with_unit(i.max, i.unit));
+}
+
+// A number or a quantity in the unit of the input. A bare number is in this unit.
+double number_of(const JobInput& i, const Json& value) {
+  double v = 0;
+  if (value.is_number()) {
+    v = value.get<double>();
+  } else if (value.is_string()) {
+    try {
+      const Quantity q = parse_quantity(value.get<std::string>());
+      const Quantity unit = parse_unit(i.unit.empty() ? "1" : i.unit);
+      if (q.dimension != unit.dimension && !q.bare)
+        refuse(i, fmt::format("\"{}\" has the wrong unit; {}", shown(value), permitted(i)));
+      v = q.bare ? q.value : q.value / unit.value;
+    } catch (const std::invalid_argument&) {
+      refuse(i, fmt::format("\"{}\" is not a number; {}", shown(value), permitted(i)));
+    }
+  } else {
+    refuse(i, fmt::format("{} is not a number; {}", shown(value), permitted(i)));
+  }
+  // A conversion of units has rounding errors: "0.3 mm" is 300 um.
+  const double slack = 1e-9 * std::max(std::abs(i.min), 1e-3);
+  if (!std::isfinite(v) || v < i.min - slack || v > i.max * (1 + 1e-9))
+    refuse(i, fmt::format("{} is out of range; {}", shown(value), permitted(i)));
+  if (i.kind == In::integer && v != std::floor(v))
+    refuse(i, fmt::format("{} is not an integer; {}", shown(value), permitted(i)));
+  return v;
+}
+
+std::string list_of(const JobInput& i, const Json& value, std::size_t least, std::size_t most,
+                    const char* between) {
+  if (!value.is_array() || value.size() < least || value.size() > most)
+    refuse(i, fmt::format("{} is not a list of {} numbers{}", shown(value),
+                          least == most ? std::to_string(least) : fmt::format("1 to {}", most),
+                          i.unit.empty() ? "" : " in " + i.unit));
+  std::string list;
+  for (const Json& one : value)
+    list += (list.empty() ? "" : between) + with_unit(number_of(i, one), i.shows_unit ? i.unit : "");
+  return list;
+}
+
+std::string words_of(const JobInput& i, const Json& value) {
+  const auto good = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) ||
+           std::string_view("^/*_-, ").find(c) != std::string_view::npos;
+  };
+  const std::string text = value.is_string() ? value.get<std::string>() : "";
+  if (text.empty() || text.size() > kLongestWords || !std::all_of(text.begin(), text.end(), good))
+    refuse(i, fmt::format(
+                  "\"{}\" must be words such as x,y,bx: letters, digits and ^ / * _ -, separated by commas",
+                  shown(value)));
+  std::string joined = text;
+  std::erase(joined, ' ');
+  return joined;
+}
+
+std::string choice_of(const JobInput& i, const Json& value) {
+  const std::string word = value.is_string() ? value.get<std::string>() : "";
+  if (std::find(i.choices.begin(), i.choices.end(), word) == i.choices.end())
+    refuse(i, fmt::format("\"{}\" must be one of {}", shown(value), fmt::join(i.choices, ", ")));
+  return word;
+}
+
+// Whether a page has given a value: an empty input is no value.
+bool is_given(const Json& values, const std::string& key) {
+  if (!values.contains(key)) return false;
+  const Json& v = values[key];
+  return !v.is_null() && v != "" && !(v.is_array() && v.empty());
+}
+
+void check_keys(const JobKind& kind, const Json& values) {
+  std::string known;
+  for (const JobInput& i : kind.inputs) known += (known.empty() ? "" : ", ") + i.key;
+  for (const auto& [key, _] : values.items())
+    if (std::none_of(kind.inputs.begin(), kind.inputs.end(),
+                     [&k = key](const JobInput& i) { return i.key == k; }))
+      throw Error(Errc::usage, key.substr(0, 80),
+                  fmt::format("is not a value of {}; it must be one of {}", kind.verb_text(), known));
+}
+
+}  // namespace
+
+std::string word_of(const JobInput& i, const Json& value) {
+  switch (i.kind) {
+    case In::direction: {
+      // y points up for the page and down for the command.
+      const double clockwise = std::fmod(720 - number_of(i, value), 360);
+      return fmt::format("{:.12g}", clockwise);
+    }
+    case In::point:
+      return list_of(i, value, 2, 2, ", ");
+    case In::currents:
+      return list_of(i, value, 1, kMostCurrents, ",");
+    case In::choice:
+      return choice_of(i, value);
+    case In::words:
+      return words_of(i, value);
+    default:
+      return with_unit(number_of(i, value), i.shows_unit ? i.unit : "");
+  }
+}
+
+std::vector<std::string> files_of(const JobInput& i, const Json& value, const Workspace& workspace) {
+  const Json list = i.many && value.is_array() ? value : Json::array({value});
+  if (list.size() > kMostFiles)
+    refuse(i, fmt::format("{} files are too many; choose at most {}", list.size(), kMostFiles));
+  std::vector<std::string> files;
+  for (const Json& one : list) {
+    if (!one.is_string())
+      refuse(i, fmt::format("{} is not a file name; choose a file of the list", shown(one)));
+    const std::string name = one.get<std::string>();
+    try {
+      (void)workspace.existing(name);
+    } catch (const Error& e) {
+      refuse(i, e.what());
+    }
+    files.push_back(name);
+  }
+  return files;
+}
+
+std::vector<std::string> job_words(const JobKind& kind, const Json& values, const Workspace& workspace,
+                                   const std::filesystem::path& folder) {
+  if (!values.is_object()) throw Error(Errc::usage, "values", "must be a table of values");
+  check_keys(kind, values);
+  std::vector<std::string> words = kind.verb, options;
+  for (const JobInput& i : kind.inputs) {
+    if (!is_given(values, i.key)) {
+      if (i.required)
+        refuse(i, is_file(i) ? "missing; choose a file of the list" : "missing; " + permitted(i));
+      continue;
+    }
+    const Json& value = values[i.key];
+    if (is_file(i)) {
+      for (const std::string& file : files_of(i, value, workspace))
+        if (i.option.empty())
+          words.push_back("./" + file);
+        else
+          options.push_back(i.option + "=./" + file);
+    } else if (i.kind == In::flag) {
+      if (!value.is_boolean()) refuse(i, fmt::format("{} must be true or false", shown(value)));
+      if (value.get<bool>()) options.push_back(i.option);
+    } else {
+      options.push_back(i.option + "=" + word_of(i, value));
+    }
+  }
+  for (const JobOutput& o : kind.outputs) options.push_back(o.option + "=" + (folder / o.file).string());
+  words.insert(words.end(), options.begin(), options.end());
+  words.emplace_back("--json");
+  return words;
+}
+
+}  // namespace faba

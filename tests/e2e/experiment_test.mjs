@@ -1,0 +1,181 @@
+// Test of the experiments of the lab in a browser: the complete work with a sample in windows. Eight rendered videos of two
+// ageing drops are imported, their exposure times and the field are stated, the scale is measured in a picture of a ruler, and the
+// activity is measured against air exposure. No path is typed, and the page is reloaded in the middle of every step.
+//
+//   node tests/e2e/experiment_test.mjs --program build/faba --root .
+
+import assert from 'node:assert/strict';
+import { mkdtempSync, readFileSync, statSync, utimesSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { address, browser, context, elsewhere, faba, kJobPatience, lab, page, step, tab, until, workspace } from './lab_page.mjs';
+
+const kExposures = [60, 180, 300, 420]; // s
+const user = mkdtempSync(join(tmpdir(), 'faba-user-'));
+const reload = async () => {
+  await page.reload();
+  await page.getByRole('heading', { name: 'Videos' }).waitFor();
+};
+const field = (name, file) => page.getByRole('textbox', { name: `${name}, ${file}` });
+/** Fills a field of a video and waits until it is saved. */
+async function fill(name, file, value) {
+  await field(name, file).fill(value);
+  await field(name, file).press('Tab');
+  await until(async () => toml().includes(value.replace(' ', '')) || toml().includes(value), `${name} of ${file} is saved`);
+}
+const toml = () => readFileSync(join(workspace, 'experiments/ageing-drops/experiment.toml'), 'utf8');
+
+/** Videos of one drop whose cells become slower; the times of the files are those of the experiment. */
+function render(drop, seed) {
+  return kExposures.map((exposure, k) => {
+    const scene = join(user, 'film.toml');
+    const speed = 60 - 10 * k;
+    writeFileSync(scene, `duration = "6 s"
+[scale]
+um_per_px = 1.2
+[arena]
+type = "box"
+size_px = [320, 240]
+[[swarm]]
+count = 60
+model = { type = "adapted", speed = "${speed} um/s" }
+[microscope]
+cell_diameter = "2.5 um"
+[controller]
+type = "manual"
+field = ["200 uT", "0 T"]
+[[controller.segment]]
+at = "2 s"
+field = ["-200 uT", "0 T"]
+[record]
+as_seen = true
+lossless = true
+tracks = false
+`);
+    faba('run', scene, '--seed', String(seed + k), '--out', join(user, `${drop}-${k}`), '--force');
+    const file = join(user, `drop-${drop}-${k}.avi`);
+    writeFileSync(file, readFileSync(join(user, `${drop}-${k}/video.avi`)));
+    utimesSync(file, 1700000000 + exposure, 1700000000 + exposure);
+    return file;
+  });
+}
+
+const films = { A: render('A', 1), B: render('B', 11) };
+
+await step('an experiment is created', async () => {
+  await page.goto(address);
+  await tab('Experiments');
+  await page.getByLabel('New experiment').fill('Ageing drops');
+  await page.getByRole('button', { name: 'Create' }).click();
+  await page.getByRole('heading', { name: 'Videos' }).waitFor();
+  assert.equal(new URL(page.url()).hash, '#/experiments/ageing-drops');
+  await reload();
+});
+
+await step('two drops with their polarity', async () => {
+  for (const [k, name] of ['A', 'B'].entries()) {
+    await page.getByRole('button', { name: 'Add a drop' }).click();
+    await until(async () => (await page.locator('.drops li').count()) === k + 1, `drop ${name} is added`);
+    await page.locator('.drops li').nth(k).getByLabel('Polarity').selectOption('south');
+    await reload();
+    assert.equal(await page.locator('.drops li').nth(k).getByLabel('Polarity').inputValue(), 'south');
+  }
+});
+
+await step('eight videos are imported by choosing files', async () => {
+  let count = 0;
+  for (const drop of ['A', 'B']) {
+    await page.getByLabel('Import into drop').selectOption(drop);
+    await page.locator('.dropzone input').setInputFiles(films[drop]);
+    count += films[drop].length;
+    await until(async () => (await page.locator('tbody tr').count()) === count, `videos of drop ${drop}`);
+    await reload();
+  }
+  for (const f of films.A) assert.deepEqual(readFileSync(join(workspace, 'experiments/ageing-drops/videos', f.split('/').at(-1))), readFileSync(f));
+});
+
+await step('a text file is refused with its name', async () => {
+  writeFileSync(join(user, 'notes.txt'), 'no video');
+  await page.locator('.dropzone input').setInputFiles(join(user, 'notes.txt'));
+  await page.locator('.upload').getByText('notes.txt').waitFor();
+  await page.locator('.upload .wrong').waitFor();
+  await page.locator('.upload').getByRole('button', { name: 'Remove' }).click();
+  assert.equal(await page.locator('tbody tr').count(), 8);
+});
+
+await step('exposure times are proposed from the times of the files', async () => {
+  for (const drop of ['A', 'B']) {
+    await fill('Air exposure', `drop-${drop}-0.avi`, `${kExposures[0]} s`);
+    await page.locator('.drops li').nth(drop === 'A' ? 0 : 1).getByRole('button', { name: 'Propose' }).click();
+    for (const [k, exposure] of kExposures.entries())
+      await until(async () => (await field('Air exposure', `drop-${drop}-${k}.avi`).inputValue()) === `${exposure} s`, `exposure of video ${k}`);
+    await reload();
+  }
+});
+
+await step('the field: direction, time of the reversal', async () => {
+  for (const f of [...films.A, ...films.B]) {
+    const name = f.split('/').at(-1);
+    await fill('Field reversal at', name, '2 s');
+    const dial = page.getByRole('slider', { name: `Field direction after it, ${name}` });
+    await dial.focus();
+    for (let k = 0; k < 4; ++k) {
+      await page.keyboard.press('PageUp');
+      await until(async () => (await dial.getAttribute('aria-valuenow')) === String(45 * (k + 1)), 'the dial turns');
+    }
+  }
+  await reload();
+  // South-seeking cells swim against a field to the left: to the right.
+  assert.equal(await page.locator('tbody tr').first().locator('.swim-text').textContent(), '0°');
+});
+
+await step('the scale is measured in a picture of a ruler', async () => {
+  const ruler = join(user, 'ruler.png');
+  writeFileSync(ruler, readFileSync(join(process.cwd(), 'docs/img/ruler.png')));
+  await page.getByRole('button', { name: 'Measure a ruler' }).click();
+  await page.locator('.ruler input[type=file]').setInputFiles(ruler);
+  await page.locator('.ruler [role=status]').waitFor();
+  await until(async () => (await page.getByLabel('Scale').first().inputValue()) !== '', 'the scale is saved');
+  await reload();
+  assert.match(toml(), /um_per_px_source = "calibration"/);
+});
+
+await step('two pages change one experiment', async () => {
+  const other = await context.newPage();
+  await other.goto(page.url());
+  const title = other.getByLabel('Title');
+  await title.waitFor();
+  await page.getByLabel('Objective').fill('20x');
+  await page.getByLabel('Objective').press('Tab');
+  await until(async () => (await other.getByLabel('Objective').inputValue()) === '20x', 'the other page follows');
+  // The same value from both, without the news in between.
+  await other.route('**/api/experiments/ageing-drops', (r) => r.request().method() === 'GET' ? r.abort() : r.continue());
+  await page.getByLabel('Title').fill('Mine');
+  await page.getByLabel('Title').press('Tab');
+  await until(() => toml().includes('title = "Mine"'), 'the title is saved');
+  await title.fill('Theirs');
+  await title.press('Tab');
+  await other.getByRole('alert').getByText('Another page has changed').waitFor();
+  assert.match(toml(), /title = "Mine"/);
+  await other.getByRole('button', { name: 'Save my values' }).click();
+  await until(() => toml().includes('title = "Theirs"'), 'the other title is saved');
+  await other.close();
+  await page.getByRole('button', { name: 'Undo' }).waitFor();
+});
+
+await step('activity against air exposure', async () => {
+  await page.getByRole('button', { name: 'Activity against air exposure' }).click();
+  await page.reload();
+  await page.getByText('done').first().waitFor({ timeout: kJobPatience });
+  const jobs = await page.evaluate(() => fetch('/api/jobs').then((r) => r.json()));
+  const result = jobs.at(-1).result;
+  assert.equal(result.videos.length, 8);
+  for (const v of result.videos) assert.ok(v.signal_to_noise > 4, `${v.file}: the cells swim in the stated direction, signal-to-noise ${v.signal_to_noise}`);
+  // The same study in the terminal.
+  assert.deepEqual(faba('activity', 'experiments/ageing-drops').mean_line, result.mean_line);
+  assert.ok(result.mean_line.slope < 0, 'the cells become slower');
+});
+
+assert.deepEqual(elsewhere, []);
+await browser.close();
+lab.kill('SIGTERM');

@@ -1,0 +1,28 @@
+// Titles of the values of a scenario: that of the schema, or made from the key.
+
+import { kTitles, type Say } from '../i18n';
+import type { Schema } from './schema';
+
+// Units in keys, which the value shows, and abbreviations.
+const kUnit = / (px|um|ms|sd)$/;
+const kWords: Record<string, string> = {
+  sd: 'standard deviation', px: '', psf: 'PSF', um: 'µm', fps: 'frames/s', places: 'positions', motility: 'motility law', alpha2: 'smoothness α²', rms: 'RMS',
+};
+
+/** "Speed, standard deviation" for speed_sd: the title if the schema and the key do not give a better one. */
+function fromKey(key: string): string {
+  const words = key.replaceAll('_', ' ');
+  const ending = kUnit.exec(words)?.[1];
+  const rest = (ending ? words.replace(kUnit, '') : words).split(' ').map((w) => (Object.hasOwn(kWords, w) ? kWords[w] : w)).join(' ');
+  const text = ending === 'sd' ? `${rest}, ${kWords.sd}` : rest;
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}
+
+/** The English title of a value; sections and parts have their key as the title in the schema. */
+export const englishTitle = (key: string, schema: Schema = {}) => (schema.title && !schema.oneOf && !schema.properties ? schema.title : fromKey(key));
+
+/** The title in the language of the page, and whether it is a translation. */
+export function titleOf(key: string, schema: Schema, say: Say): string {
+  const english = englishTitle(key, schema), all = kTitles[say.language];
+  return Object.hasOwn(all, english) ? all[english] : english;
+}

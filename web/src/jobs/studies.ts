@@ -1,0 +1,75 @@
+// Studies that are composed in the page: JSON with the keys of a study file; see POST /api/studies.
+
+import { amount, type Schema, variant } from '../form/schema';
+import { showQuantity } from '../quantity';
+import { steps, type NumberPath } from './kinds';
+
+/** Prior of a free parameter: uniform in a range, normal, or uniform in the range of the schema. */
+export type PriorKind = 'range' | 'normal' | 'full';
+export interface FreeParameter {
+  path: string;
+  prior: PriorKind;
+  /** Lowest value, or mean. */
+  a: any;
+  /** Highest value, or standard deviation. */
+  b: any;
+}
+export interface CandidateModel {
+  name: string;
+  type: string;
+  free: FreeParameter[];
+}
+
+const withUnit = (v: number, unit = '') => (unit ? `${Number(v.toPrecision(6))} ${unit}` : Number(v.toPrecision(6)));
+/** The numbers of a model that can be free, by path, with their schemas: its parameters, and the number of cells. */
+export function freeChoices(swarm: Schema, type: string): Record<string, Schema> {
+  const found: Record<string, Schema> = {};
+  const take = (path: string, s?: Schema) => {
+    if (s && (s.type === 'number' || s.type === 'integer') && s.minimum !== undefined && s.maximum !== undefined) found[path] = s;
+  };
+  const properties = (swarm.properties?.model && variant(swarm.properties.model, type)?.properties) || {};
+  for (const [key, s] of Object.entries(properties)) take(`swarm[0].model.${key}`, s);
+  take('swarm[0].count', swarm.properties?.count);
+  return found;
+}
+/** A new free parameter: half to twice the default, within the limits of the schema. */
+export function newFree(path: string, s: Schema): FreeParameter {
+  const unit = s['x-unit'] ?? '', value = amount(s.default, unit);
+  if (value === null || value <= 0) return { path, prior: s.type === 'integer' ? 'range' : 'full', a: withUnit(s.minimum!, unit), b: withUnit(s.maximum!, unit) };
+  const low = Math.max(s.minimum!, value / 2), high = Math.min(s.maximum!, value * 2);
+  const whole = (v: number) => (s.type === 'integer' ? Math.round(v) : v);
+  return { path, prior: 'range', a: withUnit(whole(low), unit), b: withUnit(whole(high), unit) };
+}
+/** A [[model]] of a study for identify. */
+export function candidateTable(c: CandidateModel) {
+  const free = Object.fromEntries(c.free.map((f) => [f.path, f.prior === 'full' ? true : f.prior === 'range' ? [f.a, f.b] : { mean: f.a, sd: f.b }]));
+  return { ...(c.name && c.name !== c.type ? { name: c.name } : {}), type: c.type, free };
+}
+
+/** A parameter of a sweep: its values in equal steps. */
+export interface Sweep {
+  number: NumberPath;
+  low: any;
+  high: any;
+  count: number;
+}
+/** Maximum number of combinations of a sweep. */
+export const kMostCombinations = 200;
+/** The [[model]] tables of a sweep: all combinations of the values. Throws a key of the page's texts. */
+export function sweepVariants(sweeps: Sweep[]): { name: string; set: Record<string, any> }[] {
+  let all: { name: string; set: Record<string, any> }[] = [{ name: '', set: {} }];
+  for (const { number, low, high, count } of sweeps) {
+    const unit = number.schema['x-unit'] ?? '', from = amount(low, unit), to = amount(high, unit);
+    if (from === null || to === null) throw new Error('sweep.range');
+    const key = number.path.split('.').at(-1)!;
+    const values = steps(from, to, count).map((v) => (number.schema.type === 'integer' ? Math.round(v) : v));
+    all = all.flatMap((one) =>
+      [...new Set(values)].map((v) => ({
+        name: `${one.name}${one.name ? ', ' : ''}${key} ${showQuantity(v, unit)}`,
+        set: { ...one.set, [number.path]: unit ? `${v} ${unit}` : v },
+      })),
+    );
+  }
+  if (all.length > kMostCombinations) throw new Error('sweep.many');
+  return all;
+}
