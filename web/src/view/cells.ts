@@ -135,7 +135,7 @@ class PixelCells implements CellView {
         }
         let at = (y - half) * w + x - half;
         if (size === 2) {
-          px[at] = px[at + 1] = px[at + w] = px[at + w + 1] = c; // the usual size in large swarms, without a loop
+          px[at] = px[at + 1] = px[at + w] = px[at + w + 1] = c; // the typical size in large swarms, without a loop
           continue;
         }
         for (let b = 0; b < size; ++b, at += w) for (let a = 0; a < size; ++a) px[at + a] = c;
