@@ -1,7 +1,8 @@
 import { defineConfig } from 'vite';
 import { svelte } from '@sveltejs/vite-plugin-svelte';
 
-// Names without hashes: the program embeds these three files, and the same sources give the same bytes.
+// Names without hashes: the program embeds the files, and the same sources give the same bytes. Pages that are not needed at
+// the start are in files of their own; all styles are in one.
 export default defineConfig({
   plugins: [svelte()],
   base: './',
@@ -10,6 +11,7 @@ export default defineConfig({
     outDir: 'dist',
     modulePreload: false,
     assetsInlineLimit: 0,
-    rollupOptions: { output: { entryFileNames: 'app.js', assetFileNames: 'app.[ext]' } },
+    cssCodeSplit: false,
+    rollupOptions: { output: { entryFileNames: 'app.js', chunkFileNames: '[name].js', assetFileNames: 'app.[ext]' } },
   },
 });
