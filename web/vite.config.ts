@@ -1,8 +1,8 @@
 import { defineConfig } from 'vite';
 import { svelte } from '@sveltejs/vite-plugin-svelte';
 
-// Names without hashes: the program embeds the files, and the same sources give the same bytes. Pages that are not needed at
-// the start are in files of their own; all styles are in one.
+// Names without hashes: the program embeds these files, and the same sources give the same bytes. The pages that are not shown at
+// first are loaded when they are opened.
 export default defineConfig({
   plugins: [svelte()],
   base: './',
@@ -11,7 +11,6 @@ export default defineConfig({
     outDir: 'dist',
     modulePreload: false,
     assetsInlineLimit: 0,
-    cssCodeSplit: false,
-    rollupOptions: { output: { entryFileNames: 'app.js', chunkFileNames: '[name].js', assetFileNames: 'app.[ext]' } },
+    rollupOptions: { output: { entryFileNames: 'app.js', chunkFileNames: '[name].js', assetFileNames: ({ names }) => (names.includes('index.css') || names.includes('style.css') ? 'app.css' : '[name].[ext]') } },
   },
 });
