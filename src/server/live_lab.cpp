@@ -1,5 +1,6 @@
 #include "server/live_lab.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/run/random_seed.h"
@@ -12,6 +13,15 @@ constexpr double kStatePeriod = 0.5;  // s, interval of state messages
 constexpr double kLate = 0.25;        // s, maximum lag that is made up for
 
 Json box_json(const PictureBox& b) { return {b.left, b.top, b.right, b.bottom}; }
+
+// Name and largest current of every coil; a coil without a name has an empty one.
+Json coils_json(const Field& field, double limit) {
+  Json coils = Json::array();
+  const std::vector<double> most = field.max_currents(limit);
+  for (std::size_t k = 0; k < field.coils(); ++k)
+    coils.push_back({{"name", field.circuit(k).name}, {"max_a", most[k]}});
+  return coils;
+}
 
 }  // namespace
 
@@ -122,14 +132,17 @@ bool LiveLab::between_frames(const std::stop_token& stop) {
 }
 
 void LiveLab::publish(Clock::time_point now) {
-  std::shared_ptr<const std::string> plain, camera;
+  std::map<std::pair<bool, int>, std::shared_ptr<const std::string>> messages;  // by camera and sites
   const std::lock_guard lock(mutex_);
   for (auto& [who, w] : watchers_) {
     if (now < w.next && !paused_) continue;
-    w.next =
-        now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / w.view.rate));
-    auto& message = w.view.camera ? camera : plain;
-    if (!message) message = shown_->message(run_, w.view.camera);
+    // From the time at which the frame was due: with the time of the frame, the jitter of a run at the same
+    // rate would skip every second frame.
+    const auto period =
+        std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / w.view.rate));
+    w.next = std::max(w.next + period, now);
+    auto& message = messages[{w.view.camera, w.view.sites}];
+    if (!message) message = shown_->message(run_, w.view.camera, w.view.sites);
     w.listener.frame(message);
   }
 }
@@ -168,9 +181,19 @@ Json LiveLab::run_news() const {
   j["outline"] = {{"centre_px", {edge.centre_image.x, edge.centre_image.y}}, {"radius_px", edge.radius_px}};
   j["box"] = box_json(shown_->box);
   j["populations"] = populations;
-  j["coils"] = w.state().current.size();
+  j["coils"] = coils_json(*w.parts().field, live.scenario().limits.max_current);
   j["columns"] = shown_->columns;
   return j;
+}
+
+Json LiveLab::history_news() const {
+  Json rows = Json::array();
+  for (std::size_t k = 0; k < shown_->history.size(); ++k) {
+    Json row = Json::array();
+    for (const double v : shown_->history.row(k)) row.push_back(v);  // written as null if not finite
+    rows.push_back(std::move(row));
+  }
+  return {{"say", "history"}, {"run", run_}, {"rows", std::move(rows)}};
 }
 
 Json LiveLab::parts_news() const {
@@ -190,8 +213,9 @@ void LiveLab::watch(std::uint64_t who, Listener l) {
   enqueue(
       [this, who, l = std::move(l)] {
         if (shown_) l.news(run_news());
+        if (shown_ && shown_->history.size() > 0) l.news(history_news());
         l.news(state());
-        if (shown_ && shown_->live.frame() > 0) l.frame(shown_->message(run_, false));
+        if (shown_ && shown_->live.frame() > 0) l.frame(shown_->message(run_, false, 0));
         const std::lock_guard lock(mutex_);
         watchers_[who] = {l, {}, {}};
         return Json::object();
@@ -207,7 +231,7 @@ void LiveLab::set_view(std::uint64_t who, View w) {
         if (it == watchers_.end()) return Json::object();
         it->second.view = w;
         if (paused_ && shown_ && shown_->live.frame() > 0)
-          it->second.listener.frame(shown_->message(run_, w.camera));
+          it->second.listener.frame(shown_->message(run_, w.camera, w.sites));
         return Json::object();
       },
       [](const Json&) {});

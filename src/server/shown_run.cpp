@@ -8,6 +8,7 @@ namespace faba {
 namespace {
 
 constexpr std::size_t kRows = 32;  // rows of the series per message; pages that missed messages need several
+constexpr std::size_t kHistory = 1200;  // rows for pages that connect later; a plot has about as many pixels
 constexpr int kFieldColumns = 17, kFieldRows = 13;
 constexpr std::size_t kMostHeadings = 20000;  // headings are not visible for more cells
 
@@ -17,7 +18,8 @@ ShownRun::ShownRun(const Document& d, std::uint64_t seed, const Parts& parts, Po
     : document(d),
       live(d, seed, parts, pool),
       row(sink_context(live.scenario(), live.simulation(), pool, {})),
-      columns(row.names()) {
+      columns(row.names()),
+      history(kHistory) {
   columns.emplace_back("activity_um_s");
   const Simulation& s = live.simulation();
   const Grid g = s.world().parts().arena->grid();
@@ -26,6 +28,7 @@ ShownRun::ShownRun(const Document& d, std::uint64_t seed, const Parts& parts, Po
   const Vec2 opposite =
       s.frame().image_from_world(low + double(g.cell) * Vec2{double(g.columns), double(g.rows)});
   box = {corner.x, opposite.y, opposite.x, corner.y};
+  for (const Population& p : s.world().parts().populations) ends.push_back(p.end);
   const bool varies = s.world().parts().table.has_value();
   const int nx = varies ? kFieldColumns : 1, ny = varies ? kFieldRows : 1;
   for (int j = 0; j < ny; ++j)
@@ -46,6 +49,7 @@ void ShownRun::take(const Tick& t) {
   const double now = live.simulation().rig().time_of(t.index);
   v.push_back(mean_speed(now - time) * 1e6);
   time = now;
+  history.add(v);
   if (rows.size() == kRows * v.size()) rows.erase(rows.begin(), rows.begin() + std::ptrdiff_t(v.size()));
   rows.insert(rows.end(), v.begin(), v.end());
 }
@@ -67,7 +71,7 @@ double ShownRun::mean_speed(double dt) {
   return first || !(dt > 0) ? std::numeric_limits<double>::quiet_NaN() : distance / (double(x.size()) * dt);
 }
 
-std::shared_ptr<const std::string> ShownRun::message(std::uint32_t run, bool camera) {
+std::shared_ptr<const std::string> ShownRun::message(std::uint32_t run, bool camera, int sites) {
   Simulation& s = live.simulation();
   const World& w = s.world();
   const auto& agents = w.state().agents;
@@ -84,6 +88,8 @@ std::shared_ptr<const std::string> ShownRun::message(std::uint32_t run, bool cam
     m.ux = agents["ux"];
     m.uy = agents["uy"];
   }
+  m.ends = ends;
+  m.sites = sites;
   m.rows = rows;
   m.columns = columns.size();
   const std::size_t n = field_x.size();

@@ -27,8 +27,9 @@ if (pictures) mkdirSync(pictures, { recursive: true });
 
 export const faba = (...words) => JSON.parse(execFileSync(program, [...words, '--json'], { cwd: workspace, encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }));
 
-/** The process of the server and its address; serveAgain() starts another server. */
+/** Files of the page from a folder, for development: --www FOLDER. */
 const www = option('www') ? ['--www', option('www')] : [];
+/** The process of the server and its address; serveAgain() starts another server. */
 export let { lab, address } = await serve(program, workspace, ...www);
 export async function serveAgain(...more) {
   ({ lab, address } = await serve(program, workspace, ...www, ...more));
@@ -36,6 +37,8 @@ export async function serveAgain(...more) {
 process.on('exit', () => lab.kill('SIGKILL')); // also after a failure
 export const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox'] });
 export const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, locale: 'en-GB', colorScheme: 'light', acceptDownloads: true });
+// The steps read positions in pixels, as those of the picture; the step on units uses micrometres.
+await context.addInitScript(() => localStorage.getItem('faba.unit') ?? localStorage.setItem('faba.unit', '"px"'));
 export const page = await context.newPage();
 page.setDefaultTimeout(kPatience);
 /** Errors that the page reported on the console. */
@@ -61,7 +64,11 @@ export const step = async (what, does) => {
   console.log(`ok ${what} (${((Date.now() - began) / 1000).toFixed(1)} s)`);
 };
 export const tab = (name) => page.locator('nav').getByRole('link', { name: new RegExp(`^${name}`) }).click();
-export const panel = (name) => page.getByRole('tab', { name: new RegExp(`^${name}`) }).click();
+/** Shows a panel of the workbench: in a wide window some have no tab, because they are always visible. */
+export const panel = async (name) => {
+  const one = page.getByRole('tab', { name: new RegExp(`^${name}`) });
+  if (await one.count()) await one.click();
+};
 /** The numbers in an element of the page. */
 export const read = async (what) => (await page.locator(`[data-read="${what}"]`).textContent()).match(/-?[\d.]+/g)?.map(Number) ?? [];
 export async function until(holds, what) {

@@ -1,12 +1,13 @@
 // Test of the live lab in a browser. Stops with an error at the first failed step. With --pictures FOLDER it saves
 // screenshots of the page in FOLDER.
 //
-//   node tests/e2e/lab_test.mjs --program build/faba --root . [--pictures docs/img/lab]
+//   node tests/e2e/lab_test.mjs --program build/faba --root . [--pictures docs/img/lab] [--www web/dist]
 
 import assert from 'node:assert/strict';
 import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { address, browser, complaints, context, elsewhere, faba, kJobPatience, lab, page, panel, pictures, place, read, serveAgain, shot, step, tab, until, workspace } from './lab_page.mjs';
+import { phoneSteps, workbenchSteps } from './workbench_steps.mjs';
 
 await step('the gallery opens, and the token is removed from the address', async () => {
   await page.goto(address);
@@ -24,6 +25,8 @@ await step('a scene is started', async () => {
   await page.getByText('Drag on the picture: the swarm swims').waitFor();
   await until(async () => (await read('swarm'))[0] > 0, 'the swarm is shown');
   await shot('first');
+  const [hint, view] = [await page.locator('.hint').boundingBox(), await page.locator('.view').boundingBox()];
+  assert.ok(hint.y >= view.y + view.height || hint.y + hint.height <= view.y, 'the hint covers the picture');
   await page.getByRole('button', { name: 'Close' }).click();
   await until(async () => (await read('swarm'))[0] > 120, 'the swarm moves along its route');
   await shot('route');
@@ -56,13 +59,20 @@ await step('arrow keys apply a field', async () => {
   assert.equal(await page.locator('[data-read="goal"]').count(), 0, 'the distance to a setpoint that the manual field does not use');
 });
 
-await step('a setpoint outside the arena is reported', async () => {
-  await page.getByLabel('x (px)').fill('700'); // the plot of the distance in a later picture shows it
+await step('a setpoint outside the arena is refused, at its control and on the picture', async () => {
+  const controller = () => page.evaluate(() => JSON.stringify(document.querySelector('canvas.over').lab.scenario.reference));
+  const before = await controller();
+  await page.getByLabel('x (px)').fill('700');
   await page.getByLabel('y (px)').fill('-5');
   await page.getByRole('button', { name: 'Set', exact: true }).click();
-  const note = page.getByRole('status').filter({ hasText: 'is outside the arena' });
+  const note = page.getByRole('status').filter({ hasText: 'is outside the arena and was not set' });
   await note.waitFor();
+  assert.equal(await page.getByLabel('x (px)').getAttribute('aria-invalid'), 'true');
+  await page.locator('#setpoint-refused').getByText('(700.0, -5.0) px').waitFor();
+  await shot('refused');
+  assert.equal(await controller(), before);
   await note.getByRole('button', { name: 'Close' }).click();
+  await page.locator('#setpoint-refused').waitFor({ state: 'detached' });
 });
 
 await step('a click sets a setpoint, and the swarm reaches it', async () => {
@@ -71,6 +81,8 @@ await step('a click sets a setpoint, and the swarm reaches it', async () => {
   await until(async () => (await read('goal'))[0] < 12, 'the setpoint is reached');
   await shot('goal');
 });
+
+await workbenchSteps();
 
 await step('pause, next frame, speed', async () => {
   await page.getByRole('button', { name: 'Pause' }).click();
@@ -105,7 +117,7 @@ await step('a parameter of the model is changed during the run', async () => {
   await page.getByText('must be at least').waitFor();
   await speed.fill('3 bananas');
   await page.getByText('has the wrong unit; it needs a unit such as').waitFor();
-  await page.getByRole('button', { name: 'Undo' }).click();
+  await page.getByRole('button', { name: 'Undo', exact: true }).click();
   assert.match(await speed.inputValue(), /^[\d.]+ µm\/s$/);
   assert.equal(await page.getByText('needs a unit such as').count(), 0);
   // An error of the program that concerns two values is shown at their part.
@@ -213,6 +225,14 @@ await step('camera picture, density and trails', async () => {
   await page.getByLabel('Trails').uncheck();
 });
 
+await step('the density of a large swarm is shown with its scale', async () => {
+  const scenario = { arena: { type: 'drop', radius_px: 300 }, swarm: [{ count: 25000, model: { type: 'dipole', preset: 'IT-1' } }] };
+  await page.evaluate((s) => document.querySelector('canvas.over').lab.ask('start', { scenario: s, seed: 1 }), scenario);
+  await until(async () => (await read('density')).at(-1) > 0, 'the scale of the density is shown');
+  await until(() => page.evaluate(() => document.querySelector('canvas.over').lab.frame?.sites?.columns > 0), 'the server sends an occupancy grid');
+  await shot('dense');
+});
+
 await step('the picture is drawn with WebGL', async () => {
   await page.evaluate(() => localStorage.setItem('faba.renderer', '"webgl"'));
   await page.reload();
@@ -308,7 +328,9 @@ await step('a second page is read-only until it takes control', async () => {
 await step('a lost connection is reported, and the page reconnects', async () => {
   lab.kill('SIGSTOP'); // the server hangs: the connection stays open without responses
   await page.getByText('Connection lost').waitFor();
-  for (const name of ['Pause', 'Next frame', 'Record']) assert.ok(await page.getByRole('button', { name }).isDisabled(), `${name} is enabled without a connection`);
+  await page.getByText('No connection: this picture is not current').waitFor();
+  await shot('frozen');
+  for (const name of ['Undo change', 'Pause', 'Next frame', 'Record']) assert.ok(await page.getByRole('button', { name }).isDisabled(), `${name} is enabled without a connection`);
   assert.equal(await page.locator('aside button:enabled:not([role=tab])').count(), 0, 'the panel is enabled without a connection');
   lab.kill('SIGCONT');
   await until(async () => (await page.getByText('Connection lost').count()) === 0, 'connected again');
@@ -326,6 +348,7 @@ await step('Portuguese, dark theme, small screen, 200 % zoom', async () => {
   await page.waitForTimeout(300);
   assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 390, 'the page is wider than the screen of a phone');
   await shot('phone');
+  await phoneSteps();
   await page.setViewportSize({ width: 640, height: 400 }); // 1280 x 800 at 200 %
   await page.waitForTimeout(300);
   assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 640, 'the page is wider than the window at 200 %');

@@ -162,3 +162,22 @@ TEST_CASE("an invalid scenario does not stop the running one") {
   CHECK(bad["ok"] == false);
   CHECK(answer([&](auto done) { lab.pause(true, done); })["ok"] == true);
 }
+
+TEST_CASE("a page that connects to a run receives its rows since the start, and the coils") {
+  Page first, second;
+  LiveLab lab(1);
+  lab.watch(1, first.listener());
+  answer([&](auto done) { lab.start(parse_toml(kScene, "test"), 9, done); });
+  const Json run = first.news("run");
+  REQUIRE(run["coils"].is_array());
+  for (const Json& coil : run["coils"]) CHECK(coil["max_a"] > 0);
+  first.frame(3);
+  answer([&](auto done) { lab.pause(true, done); });
+
+  lab.watch(2, second.listener());
+  const Json history = second.news("history");
+  CHECK(history["run"] == run["run"]);
+  REQUIRE(history["rows"].size() >= 4);
+  CHECK(history["rows"][0].size() == run["columns"].size());
+  for (std::size_t k = 0; k < history["rows"].size(); ++k) CHECK(history["rows"][k][0] == k);
+}

@@ -1,5 +1,6 @@
 // State of the lab in the page: one object shared by all components.
 
+import { Changes } from './changes.svelte';
 import { Connection, get, type Answer, type News, type RequestError } from './connection';
 import type { Schema } from './form/schema';
 import { decodeFrame, runOf, type Frame } from './frame';
@@ -12,7 +13,7 @@ export interface RunNews {
   seed: number;
   rate: number;
   populations: { begin: number; end: number; polarity: 'north' | 'south' }[];
-  coils: number;
+  coils: { name: string; max_a: number }[];
   columns: string[];
 }
 export interface Job {
@@ -38,6 +39,8 @@ export interface Trouble {
   /** Text of the page in place of `what`. */
   word?: Word;
 }
+
+const kTick = 100; // ms
 
 export class Lab {
   connected = $state(false);
@@ -65,13 +68,16 @@ export class Lab {
   schema = $state.raw<Schema | null>(null);
   trouble = $state.raw<Trouble | null>(null);
   stopped = $state.raw<Trouble | null>(null);
-  /** Number of received frames; triggers drawing. */
+  /** Increases when new data are available, at most ten times a second; triggers numbers and plots. The picture follows `frame`. */
   ticks = $state(0);
+  private ticked = -Infinity;
+  private ticking = 0;
 
   // Not reactive: they change sixty times a second.
   frame: Frame | null = null;
   readonly series = new Series();
   readonly link: Connection;
+  readonly changes = new Changes();
 
   /** This page controls the run. False without a connection: all controls of the run are disabled. */
   readonly steers = $derived(this.connected && this.page !== 0 && this.page === this.steering);
@@ -100,8 +106,16 @@ export class Lab {
     else if (a.ok) this.trouble = null;
     return a;
   }
-  exchange(event: Record<string, unknown>) {
-    return this.ask('exchange', { event });
+  async exchange(event: Record<string, unknown>) {
+    const before = this.scenario;
+    const a = await this.ask('exchange', { event });
+    if (a.ok) this.changes.add(before, event);
+    return a;
+  }
+  /** Undoes the newest change of this page. */
+  async undo() {
+    const { back } = this.changes;
+    if (back && (await this.ask('exchange', { event: back })).ok) this.changes.removeNewest();
   }
 
   private async fetchSchema() {
@@ -127,11 +141,15 @@ export class Lab {
         this.events = n.events;
         this.stopped = null;
         this.series.begin(n.columns);
+        this.changes.clear();
         this.frame = null;
         break;
       }
       case 'experiment':
         this.experimentNews = { name: n.name, count: this.experimentNews.count + 1 };
+        break;
+      case 'history':
+        if (n.run === this.run?.run) this.takeHistory(n.rows);
         break;
       case 'parts':
         this.scenario = n.scenario;
@@ -147,6 +165,7 @@ export class Lab {
       case 'pages':
         this.pages = n.pages;
         this.steering = n.steering;
+        if (!this.steers) this.changes.clear(); // another page may change the same parts
         break;
       case 'jobs':
         this.jobs = n.jobs;
@@ -166,7 +185,21 @@ export class Lab {
     const f = decodeFrame(b, this.run.columns.length);
     this.frame = f;
     this.series.take(f.rows, f.rowCount);
-    ++this.ticks;
+    this.tick();
+  }
+  // The values of a series; null is written for those that are not finite.
+  private takeHistory(rows: (number | null)[][]) {
+    this.series.take(Float64Array.from(rows.flat(), (v) => v ?? NaN), rows.length);
+    this.tick();
+  }
+  private tick() {
+    if (this.ticking) return;
+    const wait = this.ticked + kTick - performance.now();
+    this.ticking = window.setTimeout(() => {
+      this.ticking = 0;
+      this.ticked = performance.now();
+      ++this.ticks;
+    }, Math.max(0, wait));
   }
 
   /** +1 when cells swim along the field, -1 against it. */

@@ -75,3 +75,15 @@ export function event(from: Json, to: Json): Json[] | null {
   if (Object.keys(parts).length) events.unshift(parts);
   return events;
 }
+
+/** The event that restores the parts that an event replaces in a scenario; null if a part is not in the scenario. */
+export function reversal(before: Json, e: Json): Json | null {
+  const back: Json = {};
+  for (const key of Object.keys(e)) {
+    if (key === 'swarm') back.swarm = e.swarm;
+    else if (key === 'model') back.model = before.swarm?.[e.swarm ?? 0]?.model;
+    else back[key] = before[key];
+    if (back[key] === undefined) return null;
+  }
+  return back;
+}

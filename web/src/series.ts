@@ -14,7 +14,7 @@ export class Series {
   length = 0;
   private last = -1;
 
-  /** `most`: number of rows at which the older half is removed before the next row is added. */
+  /** `most`: number of rows at which every second row of the older half is removed before the next row is added. */
   constructor(private most = kMostLive) {}
 
   begin(names: string[]) {
@@ -30,7 +30,7 @@ export class Series {
       const frame = rows[r * n];
       if (!(frame > this.last)) continue; // also a row without a frame number: NaN
       this.last = frame;
-      if (this.length === this.most) this.drop();
+      if (this.length === this.most) this.thin();
       if (this.length === this.columns[0].length) this.grow();
       for (let c = 0; c < n; ++c) this.columns[c][this.length] = rows[r * n + c];
       ++this.length;
@@ -75,11 +75,21 @@ export class Series {
       return larger;
     });
   }
-  private drop() {
-    const removed = Math.ceil(this.length / 2);
-    for (const c of this.columns) c.copyWithin(0, removed, this.length);
-    this.length -= removed;
+  // The first row remains; the resolution decreases with the age, as in the history of the program.
+  private thin() {
+    const half = this.length >> 1;
+    for (const c of this.columns) {
+      for (let r = 0; r < half; r += 2) c[r >> 1] = c[r];
+      c.copyWithin((half + 1) >> 1, half, this.length);
+    }
+    this.length -= half >> 1;
   }
+}
+
+/** Times since the first row of a recording, s: it may begin later than its run. Times of a live run are since its start. */
+export function timesFromStart(s: Series): Float64Array {
+  const t = s.of('t_s'), start = t[0] ?? 0;
+  return t.map((v) => v - start);
 }
 
 /**
@@ -87,7 +97,7 @@ export class Series {
  * recording stays visible beside a long live run. The full range [low, high] if the live run has no rows in it.
  */
 export function comparedRange(live: Series, recorded: Series, low: number, high: number): [number, number] {
-  const times = live.of('t_s'), end = 2 * recorded.newest('t_s');
+  const times = live.of('t_s'), end = 2 * (timesFromStart(recorded).at(-1) ?? NaN);
   return end > low && times.length > 0 && times[0] < end ? [low, Math.min(high, end)] : [low, high];
 }
 

@@ -1,5 +1,6 @@
 // Manual control: field by pointer, keys and gamepad; setpoints and routes.
 
+import { amount } from './form/schema';
 import type { Lab } from './lab.svelte';
 import type { Scene } from './view/overlay';
 import { defaultPart, handController, isOpenLoop, routeReference, sectionOf, setpointReference } from './part_traits';
@@ -26,7 +27,7 @@ export class Steering {
   asked = $state.raw<[number, number] | null>(null);
   /** The first requested setpoint outside the camera view, and the size of the view, px; the page shows a note. */
   outside = $state.raw<{ x: number; y: number; width: number; height: number } | null>(null);
-  /** The first requested setpoint outside the arena, px; the page shows a note. */
+  /** The setpoint that was refused because it is outside the arena, px; it is marked on the picture and at its control. */
   unreachable = $state.raw<{ x: number; y: number } | null>(null);
   /** Controller and estimator before manual control. */
   private before: Record<string, any> | null = null;
@@ -96,11 +97,14 @@ export class Steering {
     this.before = null;
     this.outside = this.unreachable = null;
   }
-  private checkSetpoints(points: [number, number][]) {
-    const view = this.lab.scene?.view, point = view && points.find((q) => !inView(q, view));
-    this.outside = view && point ? { x: point[0], y: point[1], width: view.width, height: view.height } : null;
-    const scene = this.lab.scene, beyond = scene && points.find((q) => !inArena(q, scene));
+  /** Whether setpoints can be sent: all are in the arena. Those outside the camera view are reported only. */
+  private accepts(points: [number, number][]): boolean {
+    const scene = this.lab.scene, view = scene?.view;
+    const beyond = scene && points.find((q) => !inArena(q, scene));
     this.unreachable = beyond ? { x: beyond[0], y: beyond[1] } : null;
+    const unseen = beyond ? undefined : view && points.find((q) => !inView(q, view));
+    this.outside = view && unseen ? { x: unseen[0], y: unseen[1], width: view.width, height: view.height } : null;
+    return !beyond;
   }
 
   /** Parts that replace manual control: those before it, or the default controller. */
@@ -111,23 +115,33 @@ export class Steering {
   async goal(at: [number, number]) {
     const type = setpointReference(this.lab.schema);
     if (type === undefined) return;
+    const setpoint_px = rounded(at);
+    if (!this.accepts([setpoint_px])) return;
     this.direction = [0, 0];
     this.asked = at;
-    const setpoint_px = rounded(at);
-    this.checkSetpoints([setpoint_px]);
     await this.lab.exchange({ ...this.controller(), reference: { type, setpoint_px } });
     if (this.asked === at) this.asked = null;
   }
   point(at: [number, number], index: number | null) {
     const q = rounded(at);
+    if (!this.accepts([q])) return;
     this.sketch = index === null ? [...this.sketch, q] : this.sketch.map((p, i) => (i === index ? q : p));
   }
   async route() {
     const type = routeReference(this.lab.schema);
     if (type === undefined) return;
-    this.checkSetpoints(this.sketch);
+    if (!this.accepts(this.sketch)) return;
     const a = await this.lab.exchange({ ...this.controller(), reference: { type, setpoints_px: this.sketch } });
     if (a.ok) this.sketch = [];
+  }
+
+  /** Undoes the newest change; the direction is then that of the manual field, or none. */
+  async undo() {
+    await this.lab.undo();
+    const field = this.byHand ? (this.lab.scenario.controller?.field ?? []) : [];
+    const [x, y] = [0, 1].map((k) => ((amount(field[k], 'T') ?? 0) / this.strength) * this.lab.polarity);
+    this.direction = [x || 0, -y || 0];
+    this.wanted = null;
   }
 
   private keys = new Set<string>();

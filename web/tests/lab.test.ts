@@ -49,7 +49,7 @@ afterEach(() => vi.useRealTimers());
 
 const run = (number: number, columns: string[]) => ({
   say: 'run', run: number, seed: 1, frame: { width: 64, height: 48, um_per_px: 1, rate: 50 }, outline: {}, box: [0, 0, 64, 48], setpoints: [],
-  populations: [{ begin: 0, end: 3, polarity: 'south' }], coils: 0, columns, scenario: {}, events: 0,
+  populations: [{ begin: 0, end: 3, polarity: 'south' }], coils: [], columns, scenario: {}, events: 0,
 });
 /** A frame without cells, with one row. */
 function frame(of: number, number: number, row: number[]): ArrayBuffer {
@@ -75,7 +75,7 @@ describe('frames', () => {
     newest().say(run(1, ['frame', 'x']));
     newest().show(frame(1, 4, [4, 7]));
     newest().show(frame(1, 5, [5, 8]));
-    expect([lab.frame!.frame, lab.ticks, lab.series.length, lab.series.newest('x')]).toEqual([5, 2, 2, 8]);
+    expect([lab.frame!.frame, lab.series.length, lab.series.newest('x')]).toEqual([5, 2, 8]);
   });
   test('of the previous run, with another number of columns, are ignored', () => {
     const lab = connected();
@@ -85,6 +85,98 @@ describe('frames', () => {
     expect([lab.frame, lab.series.length]).toEqual([null, 0]);
     newest().show(frame(2, 0, [0, 1, 2]));
     expect(lab.series.newest('y')).toBe(2);
+  });
+});
+
+describe('numbers and plots', () => {
+  test('are drawn at most ten times a second, and once after the last frame', () => {
+    const lab = connected();
+    newest().say(run(1, ['frame']));
+    for (let k = 0; k < 60; ++k) {
+      newest().show(frame(1, k, [k]));
+      vi.advanceTimersByTime(1000 / 60);
+    }
+    expect(lab.ticks).toBeGreaterThan(5);
+    expect(lab.ticks).toBeLessThanOrEqual(11);
+    const before = lab.ticks;
+    newest().show(frame(1, 60, [60]));
+    vi.advanceTimersByTime(200);
+    expect(lab.ticks).toBeGreaterThan(before);
+  });
+});
+
+describe('the history of a run', () => {
+  test('comes before its newest rows, and each frame is taken once', () => {
+    const lab = connected();
+    newest().say(run(3, ['frame', 'x']));
+    newest().say({ say: 'history', run: 3, rows: [[0, 5], [2, null], [4, 7]] });
+    newest().show(frame(3, 4, [4, 7]));
+    newest().show(frame(3, 5, [5, 8]));
+    expect([...lab.series.of('frame')]).toEqual([0, 2, 4, 5]);
+    expect([...lab.series.of('x')]).toEqual([5, NaN, 7, 8]);
+  });
+  test('of another run is ignored', () => {
+    const lab = connected();
+    newest().say(run(3, ['frame', 'x']));
+    newest().say({ say: 'history', run: 2, rows: [[0, 5]] });
+    expect(lab.series.length).toBe(0);
+  });
+});
+
+describe('undo', () => {
+  /** Sends an event whose answer and consequence come from the server. */
+  async function exchange(lab: Lab, event: Record<string, any>) {
+    const asked = lab.exchange(event), { id } = newest().sent.at(-1);
+    newest().say({ say: 'parts', scenario: { ...lab.scenario, ...event }, setpoints: [], events: 1 });
+    newest().say({ id, ok: true });
+    await asked;
+  }
+  const started = (controller: any) => {
+    const lab = connected();
+    newest().say({ ...run(1, ['frame']), scenario: { controller, reference: { type: 'spot' }, swarm: [{ model: { type: 'a' } }, { model: { type: 'b' } }] } });
+    return lab;
+  };
+  test('sends the parts before the newest change, then before the previous one', async () => {
+    const lab = started({ type: 'alpha' });
+    expect(lab.changes.possible).toBe(false);
+    await exchange(lab, { controller: { type: 'beta' } });
+    await exchange(lab, { reference: { type: 'path' } });
+    for (const wanted of [{ reference: { type: 'spot' } }, { controller: { type: 'alpha' } }]) {
+      const undone = lab.undo(), { id, ...sent } = newest().sent.at(-1);
+      expect(sent).toEqual({ do: 'exchange', event: wanted });
+      newest().say({ id, ok: true });
+      await undone;
+    }
+    expect(lab.changes.possible).toBe(false);
+  });
+  test('of the model of a swarm', async () => {
+    const lab = started({ type: 'alpha' });
+    await exchange(lab, { swarm: 1, model: { type: 'c' } });
+    expect(lab.changes.back).toEqual({ swarm: 1, model: { type: 'b' } });
+  });
+  test('of a drag, which sends many fields, is one step', async () => {
+    const lab = started({ type: 'alpha' });
+    for (const field of [1, 2, 3]) {
+      await exchange(lab, { controller: { type: 'hand', field } });
+      vi.advanceTimersByTime(100);
+    }
+    expect(lab.changes.back).toEqual({ controller: { type: 'alpha' } });
+    vi.advanceTimersByTime(2000);
+    await exchange(lab, { controller: { type: 'hand', field: 4 } });
+    expect(lab.changes.back).toEqual({ controller: { type: 'hand', field: 3 } });
+  });
+  test('is not possible after a refusal, in a new run, and after another page took control', async () => {
+    const lab = started({ type: 'alpha' });
+    const asked = lab.exchange({ controller: { type: 'x' } });
+    newest().say({ id: newest().sent.at(-1).id, ok: false, where: 'controller', what: 'unknown' });
+    await asked;
+    expect(lab.changes.possible).toBe(false);
+    await exchange(lab, { controller: { type: 'beta' } });
+    newest().say({ say: 'pages', pages: 2, steering: 77 });
+    expect(lab.changes.possible).toBe(false);
+    await exchange(lab, { controller: { type: 'beta' } });
+    newest().say(run(2, ['frame']));
+    expect(lab.changes.possible).toBe(false);
   });
 });
 

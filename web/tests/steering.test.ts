@@ -167,12 +167,41 @@ describe('a setpoint outside of the arena', () => {
     expect(inArena(at, { box, outline: drop })).toBe(inDrop);
     expect(inArena(at, { box, outline: { ...drop, radius_px: 0 } })).toBe(inBox);
   });
-  test('is reported; a setpoint in the arena clears the report', async () => {
+  test('is refused and reported; a setpoint in the arena clears the report', async () => {
     await steering.goal([99999, -5]);
     expect(steering.unreachable).toEqual({ x: 99999, y: -5 });
+    expect([lab.sent, steering.asked, steering.outside]).toEqual([[], null, null]);
     await steering.goal([700, 240]);
     expect(steering.unreachable).toBeNull();
     expect(steering.outside).not.toBeNull();
+  });
+});
+
+describe('a point of a route outside of the arena', () => {
+  test('is refused and reported; a point that is moved outside stays', () => {
+    steering.point([10, 20], null);
+    steering.point([99999, 20], null);
+    expect(steering.sketch).toEqual([[10, 20]]);
+    expect(steering.unreachable).toEqual({ x: 99999, y: 20 });
+    steering.point([-9000, 0], 0);
+    expect(steering.sketch).toEqual([[10, 20]]);
+    steering.point([11, 20], 0);
+    expect([steering.sketch, steering.unreachable]).toEqual([[[11, 20]], null]);
+  });
+});
+
+describe('undo', () => {
+  test('of manual control leaves no direction; of a field, the previous one', async () => {
+    const before = lab.scenario;
+    steering.pull([1, 0]);
+    await settled();
+    const first = lab.scenario;
+    Object.assign(lab, { undo: async () => (lab.scenario = first) });
+    await steering.undo();
+    expect(steering.direction[0]).toBeCloseTo(1, 6);
+    Object.assign(lab, { undo: async () => (lab.scenario = before) });
+    await steering.undo();
+    expect(steering.direction).toEqual([0, 0]);
   });
 });
 

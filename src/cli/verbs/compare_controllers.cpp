@@ -10,6 +10,7 @@
 #include "cli/provenance.h"
 #include "core/counted.h"
 #include "core/file.h"
+#include "core/toml.h"
 #include "study/pages/controller_report.h"
 #include "study/quality/rounded.h"
 #include "study/steering/controller_study.h"
@@ -60,6 +61,8 @@ class ControllersJob final : public StudyJob {
     provenance.add(source_.file);
     provenance.add(study_.scene.name);
     write_file(dir.path() / "controllers.csv", controllers_csv(*result_));
+    if (const Json best = best_scene(*result_); !best.is_null())
+      write_file(dir.path() / "best.toml", to_toml(best));
     write_file(dir.path() / "report.html", controllers_page(*result_, provenance));
     finish(dir, report(), controllers_json(*result_), provenance, options.threads);
     return true;

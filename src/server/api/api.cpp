@@ -24,16 +24,19 @@ Api::Api(const Workspace& workspace, JobList& jobs, fs::path pictures, fs::path 
                    }),
       trash_(workspace),
       runs_(workspace, jobs, trash_),
-      lab_{workspace, jobs, std::move(pictures), builtin_parts(), bench_, experiments_, imports_, runs_, trash_} {
+      lab_{workspace, jobs,  std::move(pictures), builtin_parts(), bench_, experiments_, imports_,
+           runs_,     trash_} {
   routes_.add("GET", "/api/about", [this](const auto&, const auto&) {
     return json_answer({{"version", FABA_VERSION}, {"workspace", lab_.workspace.root()}});
   });
   add_scenario_routes(routes_, lab_);
   add_gallery_routes(routes_, lab_);
+  add_result_routes(routes_, lab_);
   add_run_routes(routes_, lab_);
   add_experiment_routes(routes_, lab_);
   add_folder_routes(routes_, lab_);
   add_job_routes(routes_, lab_);
+  add_track_routes(routes_, lab_);
   add_trash_routes(routes_, lab_);
   add_input_routes(routes_, lab_);
   add_upload_routes(routes_, lab_);

@@ -6,9 +6,9 @@
 #include "server/api/routes.h"
 #include "server/experiments/experiment_store.h"
 #include "server/experiments/imports.h"
+#include "server/jobs/job_list.h"
 #include "server/runs/run_catalogue.h"
 #include "server/trash.h"
-#include "server/jobs/job_list.h"
 #include "server/workspace.h"
 
 namespace faba {
@@ -34,8 +34,10 @@ void add_folder_routes(Routes& routes, const LabServices& lab);
 void add_gallery_routes(Routes& routes, const LabServices& lab);
 void add_job_routes(Routes& routes, const LabServices& lab);
 void add_input_routes(Routes& routes, const LabServices& lab);
+void add_result_routes(Routes& routes, const LabServices& lab);
 void add_run_routes(Routes& routes, const LabServices& lab);
 void add_scenario_routes(Routes& routes, const LabServices& lab);
+void add_track_routes(Routes& routes, const LabServices& lab);
 void add_trash_routes(Routes& routes, const LabServices& lab);
 void add_upload_routes(Routes& routes, const LabServices& lab);
 void add_video_routes(Routes& routes, const LabServices& lab);

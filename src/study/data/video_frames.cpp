@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMostIntervals = 256;
 constexpr double kSameTime = 1e-6;  // s, rounding of times that are computed from time stamps
-constexpr double kReadOn = 16;      // frames that are read on for, instead of seeking (assumed)
+constexpr double kNearFrames = 16;  // frames that are read on for, instead of seeking (assumed)
 constexpr std::size_t kMostKnown = 12, kMostKnownBytes = std::size_t{48} << 20;
 
 }  // namespace
@@ -66,7 +66,7 @@ VideoFrameRef VideoFrames::last() {
 // Whether the frame at `t_s` is known, or one of the next.
 bool VideoFrames::covers(double t_s) const {
   if (known_.empty() || t_s + kSameTime < known_.front()->t_s) return false;
-  return ended_ || t_s <= known_.back()->t_s + kReadOn * interval_s_;
+  return ended_ || t_s <= known_.back()->t_s + kNearFrames * interval_s_;
 }
 
 // Shows the last known frame that is not after `t_s`, or the first one.
@@ -94,7 +94,7 @@ bool VideoFrames::start_before(double t_s) {
 // file may be truncated before it.
 double VideoFrames::last_readable(double t_s) {
   double readable = 0, missing = t_s, t = 0;
-  while (missing - readable > std::max(1.0, kReadOn * interval_s_)) {
+  while (missing - readable > std::max(1.0, kNearFrames * interval_s_)) {
     const double middle = (readable + missing) / 2;
     (reader_->seek(middle) && reader_->next(t) ? readable : missing) = middle;
   }

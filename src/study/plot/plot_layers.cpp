@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "study/plot/curve_points.h"
 #include "study/plot/markup.h"
 
 namespace faba::drawing {
@@ -24,12 +25,6 @@ constexpr std::array<Shade, 8> kShades{{{"blue", "#0072b2", "#56b4e9"},
                                         {"sky", "#56b4e9", "#0072b2"},
                                         {"text", "#1d2329", "#e6e9ec"},
                                         {"muted", "#5c6670", "#a4adb6"}}};
-// Renderers lose precision at larger coordinates.
-constexpr double kMaxCoordinate = 1e5;
-
-double coordinate(double fraction, bool flip, double size) {
-  return std::clamp((flip ? 1 - fraction : fraction) * size, -kMaxCoordinate, kMaxCoordinate);
-}
 
 }  // namespace
 
@@ -52,9 +47,6 @@ std::string style_sheet() {
 double character_count(std::string_view text) {
   return double(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
-
-double Map::to_x(double v) const { return coordinate((v - x.lo) / x.length(), flip_x, w); }
-double Map::to_y(double v) const { return coordinate((v - y.lo) / y.length(), !flip_y, h); }
 
 std::string text_at(PlotPoint p, const char* anchor, const Shade& s, std::string_view text,
                     const char* more) {
@@ -102,74 +94,23 @@ void extent(const Box& b, Range& x, Range& y) {
   for (const double v : {b.y0, b.y1}) y.take(v);
 }
 
-/// First, lowest, highest and last point of every pixel column, in the order of the curve.
-std::vector<PlotPoint> thinned_by_column(const std::vector<PlotPoint>& all) {
-  std::vector<PlotPoint> kept;
-  for (std::size_t first = 0; first < all.size();) {
-    std::size_t end = first + 1, lowest = first, highest = first;
-    for (; end < all.size() && std::floor(all[end].x) == std::floor(all[first].x); ++end) {
-      if (all[end].y < all[lowest].y) lowest = end;
-      if (all[end].y > all[highest].y) highest = end;
-    }
-    std::array<std::size_t, 4> pick{first, std::min(lowest, highest), std::max(lowest, highest), end - 1};
-    const auto stop = std::unique(pick.begin(), pick.end());
-    for (auto i = pick.begin(); i != stop; ++i) kept.push_back(all[*i]);
-    first = end;
-  }
-  return kept;
-}
-
-/// For a curve with non-monotonic x: drops points nearer than half a unit to the previous kept point.
-std::vector<PlotPoint> thinned_by_distance(const std::vector<PlotPoint>& all) {
-  std::vector<PlotPoint> kept{all.front()};
-  for (const PlotPoint& p : all) {
-    if (std::hypot(p.x - kept.back().x, p.y - kept.back().y) >= 0.5) kept.push_back(p);
-  }
-  return kept;
-}
-
-/// Drops points left and right of a drawing area of width `w`, except the neighbours of the visible points.
-void crop(std::vector<PlotPoint>& forward, double w) {
-  const auto left_of = [](double edge) { return [edge](const PlotPoint& p) { return p.x < edge; }; };
-  const auto end = std::partition_point(forward.begin(), forward.end(), left_of(w));
-  if (end != forward.end()) forward.erase(end + 1, forward.end());
-  const auto begin = std::partition_point(forward.begin(), forward.end(), left_of(0));
-  if (begin != forward.begin()) forward.erase(forward.begin(), begin - 1);
-}
-
-void append_section(std::string& path, std::vector<PlotPoint>& section, const Line& line, const Map& map) {
-  if (section.empty()) return;
-  const auto back = [](PlotPoint a, PlotPoint b) { return b.x < a.x; };
-  const bool forward = std::adjacent_find(section.begin(), section.end(), back) == section.end();
-  if (forward) crop(section, map.w);
-  if (double(section.size()) > 4 * map.w) {
-    section = forward ? thinned_by_column(section) : thinned_by_distance(section);
-  }
+void append_section(std::string& path, const std::vector<PlotPoint>& section, bool stairs) {
   const auto out = std::back_inserter(path);
   fmt::format_to(out, "M{:.1f} {:.1f}", section[0].x, section[0].y);
   if (section.size() == 1) path += "h0";  // with round caps, a dot
   for (std::size_t i = 1; i < section.size(); ++i) {
-    if (line.stairs)
+    if (stairs)
       fmt::format_to(out, "H{:.1f}V{:.1f}", section[i].x, section[i].y);
     else
       fmt::format_to(out, "L{:.1f} {:.1f}", section[i].x, section[i].y);
   }
-  section.clear();
 }
 
 std::string dashes(bool dashed) { return dashed ? R"( stroke-dasharray="6 5")" : ""; }
 
 std::string draw(const Line& line, Ink ink, const Map& map) {
   std::string path;
-  std::vector<PlotPoint> section;
-  for (std::size_t i = 0; i < std::min(line.x.size(), line.y.size()); ++i) {
-    if (std::isfinite(line.x[i]) && std::isfinite(line.y[i])) {
-      section.push_back({map.to_x(line.x[i]), map.to_y(line.y[i])});
-    } else {
-      append_section(path, section, line, map);
-    }
-  }
-  append_section(path, section, line, map);
+  for (const auto& section : curve_sections(line, map)) append_section(path, section, line.stairs);
   if (path.empty()) return {};
   return fmt::format(R"(<path {} stroke-width="{}"{} d="{}"/>)", stroke(shade(ink)), line.width,
                      dashes(line.dashed), path);

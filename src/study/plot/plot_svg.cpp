@@ -67,8 +67,9 @@ Legend legend_of(const Plot& plot, const std::vector<Ink>& inks, double left, do
       y += kLegendRow;
     }
     legend.drawing +=
-        fmt::format(R"svg(<g transform="translate({:.1f} {:.1f})">{}</g>)svg", x + kSwatch / 2, y, symbol);
-    legend.drawing += text_at({x + kSwatch + 5, y + 4}, "start", shade(Ink::text), label);
+        fmt::format(R"svg(<g data-legend="{}"><g transform="translate({:.1f} {:.1f})">{}</g>)svg", i,
+                    x + kSwatch / 2, y, symbol);
+    legend.drawing += text_at({x + kSwatch + 5, y + 4}, "start", shade(Ink::text), label) + "</g>";
     legend.height = y + kLegendRow / 2 - top + 4;
     x += length + 16;
   }
@@ -190,11 +191,12 @@ double second_line_width(const std::string& label, double axis_length) {
 }
 
 /// Label of a vertical axis, read from below; p: middle of its last line.
-std::string rotated_label(PlotPoint p, const std::string& label, double axis_length) {
+std::string rotated_label(PlotPoint p, const std::string& label, double axis_length, const char* axis) {
   std::string out;
   p.x -= second_line_width(label, axis_length);
   for (const std::string& line : label_lines(label, axis_length)) {
-    const std::string turn = fmt::format(R"svg( transform="rotate(-90 {:.1f} {:.1f})")svg", p.x, p.y);
+    const std::string turn =
+        fmt::format(R"svg( transform="rotate(-90 {:.1f} {:.1f})" data-axis="{}")svg", p.x, p.y, axis);
     out += text_at(p, "middle", shade(Ink::text), line, turn.c_str());
     p.x += kLabelLine;
   }
@@ -203,7 +205,7 @@ std::string rotated_label(PlotPoint p, const std::string& label, double axis_len
 
 std::string draw_axes(const Scale& x, const Scale& y, const Scale& right, const SecondScale& second,
                       const Map& map) {
-  std::string grid, text;
+  std::string grid, text, labels;
   const double bottom = map.top + map.h, end = map.left + map.w;
   for (std::size_t i = 0; i < x.at.size(); ++i) {
     const double at = map.left + map.to_x(x.at[i]);
@@ -219,14 +221,15 @@ std::string draw_axes(const Scale& x, const Scale& y, const Scale& right, const 
     const double at = map.top + map.to_y((right.at[i] - second.offset) / second.per_unit);
     text += text_at({end + 6, at + 4}, "start", shade(Ink::muted), right.labels[i]);
   }
-  text += text_at({map.left + map.w / 2, bottom + 34}, "middle", shade(Ink::text), x.label);
+  labels +=
+      text_at({map.left + map.w / 2, bottom + 34}, "middle", shade(Ink::text), x.label, R"( data-axis="x")");
   const double middle = map.top + map.h / 2;
-  text += rotated_label({map.left - y.width - 14, middle}, y.label, map.h);
+  labels += rotated_label({map.left - y.width - 14, middle}, y.label, map.h, "y");
   if (!right.label.empty()) {
     const double at = end + right.width + 21 + second_line_width(right.label, map.h);
-    text += rotated_label({at, middle}, right.label, map.h);
+    labels += rotated_label({at, middle}, right.label, map.h, "right");
   }
-  return fmt::format(R"(<path {} d="{}"/>)", stroke(kGrid), grid) + text;
+  return fmt::format(R"(<g data-ticks=""><path {} d="{}"/>{}</g>)", stroke(kGrid), grid, text) + labels;
 }
 
 /// Gives both axes the same unit length by widening one range about its centre.
@@ -296,6 +299,21 @@ std::string opening(const Plot& plot, double height) {
   return out + R"( fill="none" stroke-linecap="round" stroke-linejoin="round">)";
 }
 
+/// The axes of the drawing area as attributes: values (of logarithmic axes: their decimal logarithms) at the
+/// left and right, and at the bottom and top; the second scale as factor and offset.
+std::string axes_data(const Plot& plot, const Map& map, const SecondScale& second) {
+  const auto ends = [](Range r, bool flip) {
+    return flip ? fmt::format("{} {}", r.hi, r.lo) : fmt::format("{} {}", r.lo, r.hi);
+  };
+  std::string out =
+      fmt::format(R"( data-x="{}" data-y="{}")", ends(map.x, map.flip_x), ends(map.y, map.flip_y));
+  if (plot.x.logarithmic || plot.y.logarithmic)
+    out += fmt::format(R"( data-log="{}{}")", plot.x.logarithmic ? "x" : "", plot.y.logarithmic ? "y" : "");
+  if (plot.right) out += fmt::format(R"( data-right="{} {}")", second.per_unit, second.offset);
+  if (plot.equal_aspect) out += R"( data-equal="")";
+  return out;
+}
+
 // The step of 1, 2 or 5 times a power of ten that is nearest to `raw`.
 double round_step(double raw) {
   const double power = std::pow(10.0, std::floor(std::log10(raw)));
@@ -340,9 +358,13 @@ std::string svg(const Plot& given) {
   }
   out += at.legend.drawing + draw_axes(at.below, at.left, at.right, at.second, at.map);
   // A nested <svg> clips its content without an id, which could collide with another figure on the page.
-  out += fmt::format(R"(<svg x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}">)", at.map.left, at.map.top,
-                     at.map.w, at.map.h);
-  for (std::size_t i = 0; i < at.inks.size(); ++i) out += layer_drawing(plot.layers[i], at.inks[i], at.map);
+  out += fmt::format(R"(<svg x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}"{}>)", at.map.left,
+                     at.map.top, at.map.w, at.map.h, axes_data(plot, at.map, at.second));
+  for (std::size_t i = 0; i < at.inks.size(); ++i) {
+    const std::string drawing = layer_drawing(plot.layers[i], at.inks[i], at.map);
+    if (drawing.empty()) continue;
+    out += fmt::format(R"(<g data-layer="{}"{}>{}</g>)", i, layer_data(plot.layers[i], at.map), drawing);
+  }
   if (at.blank) out += text_at({at.map.w / 2, at.map.h / 2}, "middle", shade(Ink::muted), "no data");
   return out + "</svg></svg>\n";
 }

@@ -263,6 +263,17 @@ Round trials_of(const ControllerStudy& study, const std::shared_ptr<const std::v
 
 }  // namespace
 
+Json best_scene(const ControllerComparison& r) {
+  for (std::size_t c = 0; c < r.study.controllers.size(); ++c) {
+    const Combination& one = r.combinations[c];  // those of the first model and delay come first
+    if (one.excess_over_best || !one.metrics.contains(kRankedBy)) continue;
+    Json scene = settings(r.study)[c].scenario.resolved();
+    scene["title"] = fmt::format("{}: {}", r.study.title, one.controller);
+    return scene;
+  }
+  return {};
+}
+
 Round controller_trials(const ControllerStudy& study, const std::function<bool()>& stop) {
   return trials_of(study, std::make_shared<const std::vector<Setting>>(settings(study)), stop);
 }

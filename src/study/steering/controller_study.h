@@ -64,6 +64,10 @@ std::string study_hash(const ControllerStudy& study);
 std::optional<ControllerComparison> compare_controllers(const ControllerStudy& study, ResultStore& results,
                                                         const SweepOptions& options);
 
+/// The resolved scenario of the trials with the smallest mean steady-state error, of the first model and
+/// delay of the study. Null if no trial has a steady-state error.
+Json best_scene(const ControllerComparison& result);
+
 /// The trials of the study as tasks; `study` must outlive them. Trials end early when `stop` is true.
 Round controller_trials(const ControllerStudy& study, const std::function<bool()>& stop);
 /// Names of the first values of a trial; the others are times, distances and radii at some of the frames.

@@ -6,6 +6,7 @@
 #include "study/tracks/spot_sums.h"
 #include "study/tracks/track_result.h"
 #include "study/tracks/track_survey.h"
+#include "vision/files/video_reader.h"
 
 namespace faba {
 
@@ -24,6 +25,14 @@ struct TrackPreview {
   std::vector<Warning> warnings;     ///< of the detection
   std::vector<std::string> notes;
 };
+
+/// Passes the frames from which the background is computed (see BackgroundSampler) to the surveyor, and then
+/// to `take` with their time, the number done and the total. The frames between them are skipped, where the
+/// format permits it without being decoded. If the file does not state its length, the first 40 frames are
+/// used. Throws Error(Errc::input) when there are none.
+void sample_frames(
+    VideoReader& reader, const TrackOptions& o, const std::filesystem::path& name, TrackSurveyor& surveyor,
+    const std::function<void(double t_s, const GrayF& frame, std::int64_t done, std::int64_t total)>& take);
 
 /// Reads the frames from which the background is computed (see BackgroundSampler) in the part of the video
 /// that the options name: the frames between them are skipped, where the format permits it without being

@@ -56,11 +56,9 @@ void warn_background(TrackSurvey& s, const Background& median, const Background&
        "look at --preview; give the --size and --threshold of the objects, or a --region"});
 }
 
-// `fine`: spatial background of the middle frame.
-void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSampler& sampler,
-                       const Background& fine, Pool& pool) {
-  const GrayF& middle = sampler.kept()[sampler.kept().size() / 2];
-  Background median = sampler.background(pool);
+void choose_background(const TrackOptions& o, TrackSurvey& s, const SurveyedFrames& frames, Pool& pool) {
+  const GrayF& middle = frames.middle;
+  const Background &median = frames.median, &fine = frames.fine;
   const bool many = s.frames >= kFewFrames;
   const Background& first_guess = many ? median : fine;
   s.polarity = o.polarity == Polarity::automatic ? detected_polarity(middle, first_guess) : o.polarity;
@@ -92,7 +90,7 @@ void choose_background(const TrackOptions& o, TrackSurvey& s, const BackgroundSa
                (o.background == BackgroundKind::automatic && many && 2 * by_time >= by_space);
   s.spots = s.temporal ? by_time : by_space;
   // The temporal background has a noise level for each pixel, used as a weight.
-  s.background = std::move(s.temporal ? median : smooth);
+  s.background = s.temporal ? median : std::move(smooth);
 }
 
 }  // namespace
@@ -172,8 +170,9 @@ void TrackSurveyor::take(const GrayF& frame) {
   sampler_.take(options_.region ? cropped(finite, region_) : std::move(finite));
 }
 
-TrackSurvey TrackSurveyor::result(int bits, bool timed, Pool& pool) const {
-  TrackSurvey s;
+SurveyedFrames TrackSurveyor::surveyed(int bits, bool timed, Pool& pool) const {
+  SurveyedFrames out;
+  TrackSurvey& s = out.survey;
   s.frames = frames_;
   s.timed = timed;
   s.bits = bits;
@@ -184,19 +183,31 @@ TrackSurvey TrackSurveyor::result(int bits, bool timed, Pool& pool) const {
     std::vector<double> gaps = gaps_;
     s.frame_s = median_high(gaps);
   }
-  const GrayF& middle = sampler_.kept()[sampler_.kept().size() / 2];
-  Background fine;
+  out.middle = sampler_.kept()[sampler_.kept().size() / 2];
+  const GrayF& middle = out.middle;
   if (side_ == 1) s.coding = coding_traces(sampler_.kept(), pool);
   const std::function<void()> jobs[] = {
-      [&] { fine = spatial_background(middle, std::min(30.0, 0.1 * std::min(middle.width, middle.height))); },
+      [&] {
+        out.fine = spatial_background(middle, std::min(30.0, 0.1 * std::min(middle.width, middle.height)));
+      },
       [&] {
         std::vector<float> levels = s.first.px;
         s.black = quantile_low(levels, 0.001);
         s.white = quantile_low(levels, 0.999);
       }};
   pool.run_uneven(std::size(jobs), [&](std::size_t i) { jobs[i](); });
-  choose_background(options_, s, sampler_, fine, pool);
+  out.median = sampler_.background(pool);
+  return out;
+}
+
+TrackSurvey survey_of(const TrackOptions& o, const SurveyedFrames& frames, Pool& pool) {
+  TrackSurvey s = frames.survey;
+  choose_background(o, s, frames, pool);
   return s;
+}
+
+TrackSurvey TrackSurveyor::result(int bits, bool timed, Pool& pool) const {
+  return survey_of(options_, surveyed(bits, timed, pool), pool);
 }
 
 TrackSurvey survey_tracks(const TrackOptions& o, const std::filesystem::path& video,

@@ -43,6 +43,17 @@ struct TrackSurvey {
 DetectorOptions detector_options(const TrackOptions& o, const TrackSurvey& s,
                                  const std::optional<DropMask>& drop);
 
+/// The part of a survey that does not depend on size, polarity, threshold and method for the background.
+struct SurveyedFrames {
+  TrackSurvey survey;  ///< without background, polarity, size and numbers of spots
+  Background median;   ///< temporal median
+  Background fine;     ///< spatial background of the middle frame
+  GrayF middle;        ///< the middle one of the sampled frames, in the region
+};
+
+/// Determines the rest of the survey for these options.
+TrackSurvey survey_of(const TrackOptions& o, const SurveyedFrames& frames, Pool& pool);
+
 /// The first pass over a video, frame by frame.
 class TrackSurveyor {
  public:
@@ -56,6 +67,8 @@ class TrackSurveyor {
   /// The result, when all frames were taken. `bits`, `timed`: see TrackSurvey. There must be at least one
   /// frame.
   TrackSurvey result(int bits, bool timed, Pool& pool) const;
+  /// The part of it that does not depend on the options for spots.
+  SurveyedFrames surveyed(int bits, bool timed, Pool& pool) const;
 
  private:
   bool needs(double t_s);

@@ -53,8 +53,17 @@ std::size_t count(const std::string& text, const std::string& what) {
   return n;
 }
 
+/// The drawing without the codes of its values, which are letters.
+std::string without_columns(std::string svg) {
+  for (const char* name : {" data-x=\"", " data-y=\"", " data-lo=\"", " data-hi=\""})
+    for (auto at = svg.find(name); at != std::string::npos; at = svg.find(name, at))
+      svg.erase(at, svg.find('"', at + std::string(name).size()) + 1 - at);
+  return svg;
+}
+
 /// True when a number was printed as nan or inf; "information" is not one.
-bool has_nan_or_inf(const std::string& svg) {
+bool has_nan_or_inf(const std::string& drawing) {
+  const std::string svg = without_columns(drawing);
   for (const char* word : {"nan", "inf"}) {
     for (auto at = svg.find(word); at != std::string::npos; at = svg.find(word, at + 1)) {
       const auto lower = [&](std::size_t i) {

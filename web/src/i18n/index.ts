@@ -8,8 +8,11 @@ import * as experiments from './experiments';
 import * as form from './form';
 import * as gallery from './gallery';
 import * as jobs from './jobs';
+import * as lab from './lab';
 import * as own from './own';
+import * as result from './result';
 import * as runs from './runs';
+import * as tracks from './tracks';
 import * as video from './video';
 import * as workbench from './workbench';
 
@@ -24,8 +27,11 @@ const en = {
   ...form.en,
   ...gallery.en,
   ...jobs.en,
+  ...lab.en,
   ...own.en,
+  ...result.en,
   ...runs.en,
+  ...tracks.en,
   ...video.en,
   ...workbench.en,
 };
@@ -37,8 +43,11 @@ const pt = {
   ...form.pt,
   ...gallery.pt,
   ...jobs.pt,
+  ...lab.pt,
   ...own.pt,
+  ...result.pt,
   ...runs.pt,
+  ...tracks.pt,
   ...video.pt,
   ...workbench.pt,
 };

@@ -8,7 +8,7 @@ export const kProgram: Record<Language, Record<string, string>> = {
     ...jobTexts,
     swarm: 'enxame', model: 'modelo', start: 'posições iniciais', controller: 'controlador', reference: 'referência', estimator: 'estimador', field: 'campo', motility: 'motilidade', scale: 'escala', camera: 'câmera',
     limits: 'limites', exclusion: 'exclusão', simulation: 'simulação', record: 'gravação', microscope: 'microscópio', flow: 'fluxo óptico', rig: 'bancada', library: 'biblioteca', coil: 'bobina', segment: 'segmento',
-    activity: 'atividade', compare: 'comparação', identify: 'identificação', 'compare-controllers': 'comparação de controladores', 'field map': 'mapa do campo',
+    activity: 'atividade', compare: 'comparação', identify: 'identificação', 'compare-controllers': 'comparação de controladores', 'field map': 'mapa do campo', track: 'rastreamento', moving: 'em movimento', still: 'parada', drifting: 'à deriva',
     calibration: 'calibração', typed: 'digitada', metadata: 'metadados',
     simulating: 'simulando', 'simulating with another seed': 'simulando com outra semente', measuring: 'medindo', tracking: 'rastreando', trials: 'ensaios', capturing: 'capturando', replaying: 'reproduzindo',
     'another page is steering; take control first': 'outra página controla o enxame; assuma antes o controle',

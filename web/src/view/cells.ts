@@ -1,7 +1,9 @@
 // Draws cells as dots: with WebGL2, or pixel by pixel if WebGL is rendered in software.
 
-import { type Frame, responds } from '../frame';
+import { type Frame, responds, type Sites } from '../frame';
 import type { Box, Camera } from './camera';
+import { drawSites } from './sites';
+import { densityColours, kSteps, squareOf, type Density } from './density';
 
 export type Rgb = [number, number, number];
 export interface Style {
@@ -12,22 +14,32 @@ export interface Style {
   /** Radius of a dot, image px. */
   radius: number;
   trails: boolean;
+  /** Each cell has the colour of the density at its position; null: that of its swarm. */
+  density?: Density | null;
+  dark?: boolean;
 }
 export interface CellView {
   /** `ends`: index of the first cell after each swarm. */
   draw(f: Frame, ends: number[], box: Box, camera: Camera, style: Style): void;
   readonly name: string;
+  /** Whether it draws occupancy grids. */
+  readonly drawsSites: boolean;
+  /** The canvas that is drawn to. */
+  readonly canvas: HTMLCanvasElement;
   /** Clears the trails. */
   clear(): void;
 }
 
-/** Software rasterisers of WebGL draw points slower than a loop over pixels does (16 against 60 frames per second for 1e5 cells). */
-export function makeCellView(canvas: HTMLCanvasElement, choice: 'auto' | 'webgl' | 'pixels' = 'auto'): CellView {
+/**
+ * Software rasterisers of WebGL draw points slower than a loop over pixels does (16 against 60 frames per second for 1e5 cells).
+ * `over`: canvas for the loop over pixels, which may be that of the overlay: the browser then composes one canvas instead of two.
+ */
+export function makeCellView(canvas: HTMLCanvasElement, choice: 'auto' | 'webgl' | 'pixels' = 'auto', over = canvas): CellView {
   if (choice !== 'pixels' && (choice === 'webgl' || hasGpu())) {
     const gl = canvas.getContext('webgl2', { alpha: false, antialias: false, preserveDrawingBuffer: true });
     if (gl) return new WebglCells(gl);
   }
-  return new PixelCells(canvas.getContext('2d', { alpha: false })!);
+  return new PixelCells(over.getContext('2d', { alpha: false })!);
 }
 
 function hasGpu(): boolean {
@@ -55,11 +67,15 @@ const kTrail = 0.82; // decay factor of trails per frame
 
 class PixelCells implements CellView {
   readonly name = 'pixels';
+  readonly drawsSites = true;
   private image: ImageData | null = null;
   private px = new Uint32Array(0);
   private stale = true;
 
   constructor(private g: CanvasRenderingContext2D) {}
+  get canvas() {
+    return this.g.canvas;
+  }
   clear() {
     this.stale = true;
   }
@@ -76,7 +92,8 @@ class PixelCells implements CellView {
     if (style.trails && !this.stale) this.fade(style.ground);
     else px.fill(ground);
     this.stale = false;
-    this.dots(f, ends, box, camera, style);
+    if (f.sites) this.sites(f.sites, box, camera, style);
+    else this.dots(f, ends, box, camera, style);
     this.g.putImageData(this.image, 0, 0);
   }
 
@@ -92,23 +109,35 @@ class PixelCells implements CellView {
     }
   }
 
+  private sites(s: Sites, box: Box, camera: Camera, style: Style) {
+    const { width, height } = this.image!, size = Math.round(2 * Math.max(1, style.radius * camera.scale));
+    const colours = s.planes.map((_, p) => word(p % 2 ? style.mute : style.colours[(p >> 1) % style.colours.length]));
+    const density = style.density ? { density: style.density, tints: densityColours(style.dark ?? false).map(word) } : null;
+    drawSites({ px: this.px, width, height }, s, box, camera, { colours, size, density });
+  }
+
   private dots(f: Frame, ends: number[], box: Box, camera: Camera, style: Style) {
     const { kx, ky, ox, oy } = placing(f, box, camera);
     const px = this.px, w = this.image!.width, h = this.image!.height, xy = f.xy;
     const r = Math.max(1, style.radius * camera.scale), size = Math.round(2 * r), oriented = f.headings && shownAsRods(f, r);
-    const mute = word(style.mute), half = size >> 1;
+    const mute = word(style.mute), half = size >> 1, tints = style.density ? densityColours(style.dark ?? false).map(word) : [];
+    const d = style.density, square = d ? squareOf(f, box, d) : () => 0;
     let i = 0;
     for (let s = 0; s < ends.length; ++s) {
       const colour = word(style.colours[s % style.colours.length]);
       for (; i < ends[s]; ++i) {
         const x = (xy[2 * i] * kx + ox) | 0, y = (xy[2 * i + 1] * ky + oy) | 0;
         if (x < half || y < half || x >= w - half - 1 || y >= h - half - 1) continue;
-        const c = responds(f, i) ? colour : mute;
+        const c = d ? tints[d.shades[square(i)]] : responds(f, i) ? colour : mute;
         if (oriented) {
           this.rod(x, y, (f.headings![i] / 255) * 2 * Math.PI, r, c);
           continue;
         }
         let at = (y - half) * w + x - half;
+        if (size === 2) {
+          px[at] = px[at + 1] = px[at + w] = px[at + w + 1] = c; // the typical size in large swarms, without a loop
+          continue;
+        }
         for (let b = 0; b < size; ++b, at += w) for (let a = 0; a < size; ++a) px[at + a] = c;
       }
     }
@@ -131,10 +160,11 @@ class PixelCells implements CellView {
 const word = (c: Rgb) => (0xff000000 | (c[2] << 16) | (c[1] << 8) | c[0]) >>> 0;
 
 const kVertex = `#version 300 es
-in vec2 place; in float heading;
-uniform vec4 put; uniform vec2 size; uniform float radius; uniform bool headed;
-flat out float angle;
+in vec2 place; in float heading; in float shade;
+uniform vec4 put; uniform vec2 size; uniform float radius; uniform bool headed; uniform bool shaded; uniform vec3 colour; uniform vec3 shades[${kSteps}];
+flat out float angle; flat out vec3 tint;
 void main() {
+  tint = shaded ? shades[int(shade)] : colour;
   vec2 d = place * put.xy + put.zw;
   gl_Position = vec4(d.x / size.x * 2. - 1., 1. - d.y / size.y * 2., 0, 1);
   gl_PointSize = headed ? 5. * radius : 2. * radius;
@@ -142,7 +172,7 @@ void main() {
 }`;
 const kFragment = `#version 300 es
 precision mediump float;
-flat in float angle; uniform bool headed; uniform vec3 colour; out vec4 o;
+flat in float angle; flat in vec3 tint; uniform bool headed; out vec4 o;
 void main() {
   vec2 p = gl_PointCoord * 2. - 1.;
   if (headed) {
@@ -151,7 +181,7 @@ void main() {
     float thick = q.x > .3 ? .34 : .2;
     if (abs(q.y) > thick || abs(q.x) > .85) discard;
   } else if (dot(p, p) > 1.) discard;
-  o = vec4(colour, 1);
+  o = vec4(tint, 1);
 }`;
 const kCover = `#version 300 es
 const vec2 p[3] = vec2[](vec2(-1, -1), vec2(3, -1), vec2(-1, 3));
@@ -162,10 +192,12 @@ void main() { o = colour; }`;
 
 class WebglCells implements CellView {
   readonly name = 'webgl';
+  readonly drawsSites = false;
   private dots: WebGLProgram;
   private cover: WebGLProgram;
   private positionBuffer: WebGLBuffer;
   private headings: WebGLBuffer;
+  private shades: WebGLBuffer;
   private order: WebGLBuffer;
   private empty: WebGLVertexArrayObject;
   private stale = true;
@@ -176,10 +208,14 @@ class WebglCells implements CellView {
     this.cover = program(gl, kCover, kPlain);
     this.positionBuffer = gl.createBuffer()!;
     this.headings = gl.createBuffer()!;
+    this.shades = gl.createBuffer()!;
     this.order = gl.createBuffer()!;
     this.empty = gl.createVertexArray()!;
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+  }
+  get canvas() {
+    return this.gl.canvas as HTMLCanvasElement;
   }
   clear() {
     this.stale = true;
@@ -219,6 +255,7 @@ class WebglCells implements CellView {
     } else {
       this.constant('heading');
     }
+    this.shade(f, box, style);
     // One draw call per swarm for responsive and unresponsive cells: an index list is faster than a test per dot.
     let from = 0;
     ends.forEach((end, s) => {
@@ -232,6 +269,17 @@ class WebglCells implements CellView {
         gl.drawElements(gl.POINTS, list.length, gl.UNSIGNED_INT, 0);
       }
     });
+  }
+  private shade(f: Frame, box: Box, { density: d, dark }: Style) {
+    const gl = this.gl;
+    gl.uniform1i(this.uniform(this.dots, 'shaded'), d ? 1 : 0);
+    if (!d) return this.constant('shade');
+    const square = squareOf(f, box, d), shades = new Uint8Array(f.cells);
+    for (let i = 0; i < f.cells; ++i) shades[i] = d.shades[square(i)];
+    gl.uniform3fv(this.uniform(this.dots, 'shades'), densityColours(dark ?? false).flat().map((c) => c / 255));
+    gl.bindBuffer(gl.ARRAY_BUFFER, this.shades);
+    gl.bufferData(gl.ARRAY_BUFFER, shades, gl.DYNAMIC_DRAW);
+    this.attribute('shade', 1, gl.UNSIGNED_BYTE, false);
   }
   private attribute(name: string, size: number, type: number, normalised: boolean) {
     const at = this.gl.getAttribLocation(this.dots, name);

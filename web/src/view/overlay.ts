@@ -3,6 +3,7 @@
 import { swarmColumn } from '../series';
 import type { Frame } from '../frame';
 import type { Box, Camera } from './camera';
+import { correlation, ellipseOf } from './ellipse';
 
 export interface Scene {
   /** um_per_px is null if the scale is not known; the nominal one is then that of the simulation. */
@@ -17,7 +18,6 @@ export interface Layers {
   field: boolean;
   swarm: boolean;
   route: boolean;
-  density: boolean;
   scale: boolean;
 }
 export interface Marks {
@@ -28,6 +28,8 @@ export interface Marks {
   asked: [number, number] | null;
   /** Points of the route in the editor, px. */
   sketch: [number, number][];
+  /** Refused setpoint outside the arena. */
+  refused?: [number, number] | null;
 }
 /** The marks of one row of a series; `of` returns the value of a column. */
 export function recordedMarks(of: (name: string) => number): Pick<Marks, 'centroid' | 'sigma' | 'setpoint'> {
@@ -42,56 +44,32 @@ export interface Palette {
   field: string;
   swarm: string;
   target: string;
-  density: string;
+  wrong: string;
   /** Outline of text, for contrast on any image. */
   halo: string;
 }
 
-const kMap = 48; // squares of the density map along the longer side
-
 export class Overlay {
-  /** `most`: the word before the maximum of the field. */
+  /** `most`: the word before the maximum of the field; `outside`: the text at a refused setpoint. */
   constructor(
     private g: CanvasRenderingContext2D,
     private most: () => string,
+    private outside: () => string = () => '',
   ) {}
 
-  draw(scene: Scene, f: Frame | null, camera: Camera, layers: Layers, marks: Marks, p: Palette, ratio: number) {
+  /** `keep`: draws over the present picture of the canvas. */
+  draw(scene: Scene, f: Frame | null, camera: Camera, layers: Layers, marks: Marks, p: Palette, ratio: number, keep = false) {
     const g = this.g;
     g.setTransform(1, 0, 0, 1, 0, 0);
-    g.clearRect(0, 0, g.canvas.width, g.canvas.height);
+    if (!keep) g.clearRect(0, 0, g.canvas.width, g.canvas.height);
     g.lineCap = 'round';
     g.font = `${12 * ratio}px system-ui, sans-serif`;
-    if (layers.density && f) this.density(scene, f, camera, p);
     if (layers.edge) this.edge(scene, camera, p, ratio);
     if (layers.field && f) this.field(scene, f, camera, p, ratio);
     if (layers.route) this.route(scene, camera, marks, p, ratio);
-    if (layers.swarm) this.swarm(camera, marks, p, ratio);
+    if (layers.swarm) this.swarm(f, camera, marks, p, ratio);
+    if (marks.refused) this.refused(camera, marks.refused, p, ratio);
     if (layers.scale) this.scaleBar(scene, f, camera, p, ratio);
-  }
-
-  private density(scene: Scene, f: Frame, camera: Camera, p: Palette) {
-    const b = scene.box, bw = b.right - b.left, bh = b.bottom - b.top, side = Math.max(bw, bh) / kMap;
-    const nx = Math.ceil(bw / side), ny = Math.ceil(bh / side), count = new Uint32Array(nx * ny);
-    const q = f.xy instanceof Uint16Array, kx = q ? bw / 65535 : 1, ky = q ? bh / 65535 : 1;
-    const ox = q ? 0 : -b.left, oy = q ? 0 : -b.top;
-    for (let i = 0; i < f.cells; ++i) {
-      const c = Math.min(nx - 1, Math.max(0, ((f.xy[2 * i] * kx + ox) / side) | 0));
-      const r = Math.min(ny - 1, Math.max(0, ((f.xy[2 * i + 1] * ky + oy) / side) | 0));
-      ++count[r * nx + c];
-    }
-    const most = count.reduce((a, n) => Math.max(a, n), 1);
-    const g = this.g, size = Math.ceil(side * camera.scale);
-    g.fillStyle = p.density;
-    for (let r = 0; r < ny; ++r)
-      for (let c = 0; c < nx; ++c) {
-        const n = count[r * nx + c];
-        if (!n) continue;
-        g.globalAlpha = 0.75 * Math.sqrt(n / most);
-        const [x, y] = camera.toCanvas(b.left + c * side, b.top + r * side);
-        g.fillRect(Math.round(x), Math.round(y), size, size);
-      }
-    g.globalAlpha = 1;
   }
 
   // Edge of the arena, and view of the camera; the region outside the view is shaded.
@@ -220,16 +198,33 @@ export class Overlay {
     if (marks.setpoint) this.cross(camera.toCanvas(...marks.setpoint), 9 * ratio, 2.5 * ratio);
   }
 
-  private swarm(camera: Camera, marks: Marks, p: Palette, ratio: number) {
+  private swarm(f: Frame | null, camera: Camera, marks: Marks, p: Palette, ratio: number) {
     if (!marks.centroid) return;
     const g = this.g, at = camera.toCanvas(...marks.centroid);
     g.strokeStyle = p.swarm;
     this.cross(at, 9 * ratio, 2.5 * ratio);
     if (!marks.sigma) return;
+    const e = ellipseOf(...marks.sigma, f ? correlation(f) : 0);
     g.lineWidth = 1.5 * ratio;
     g.beginPath();
-    g.ellipse(at[0], at[1], marks.sigma[0] * camera.scale, marks.sigma[1] * camera.scale, 0, 0, 2 * Math.PI);
+    g.ellipse(at[0], at[1], e.major * camera.scale, e.minor * camera.scale, e.angle, 0, 2 * Math.PI);
     g.stroke();
+  }
+
+  // A crossed ring, at the border of the canvas if the point is outside of it.
+  private refused(camera: Camera, at: [number, number], p: Palette, ratio: number) {
+    const g = this.g, r = 9 * ratio, margin = 2 * r, [px, py] = camera.toCanvas(...at);
+    const x = Math.max(margin, Math.min(g.canvas.width - margin, px)), y = Math.max(margin, Math.min(g.canvas.height - margin, py));
+    g.strokeStyle = g.fillStyle = p.wrong;
+    g.lineWidth = 2.5 * ratio;
+    g.beginPath();
+    g.arc(x, y, r, 0, 2 * Math.PI);
+    g.moveTo(x - 0.7 * r, y - 0.7 * r);
+    g.lineTo(x + 0.7 * r, y + 0.7 * r);
+    g.stroke();
+    g.textAlign = x > g.canvas.width / 2 ? 'right' : 'left';
+    this.words(p, this.outside(), x + (g.textAlign === 'right' ? -1.6 : 1.6) * r, y + 4 * ratio);
+    g.textAlign = 'left';
   }
 
   private cross(at: [number, number], size: number, width: number) {

@@ -19,5 +19,5 @@ export const cellRadius = (view: Scene['view']) => kCell / (view.um_per_px ?? vi
 
 export const overlayColours = (dark: boolean): Palette =>
   dark
-    ? { edge: '#8fa3b8', outside: 'rgba(4, 8, 14, 0.45)', text: '#d8e0ea', field: '#d5b83c', swarm: '#2fd08c', target: '#d48bff', density: '#56b4e9', halo: 'rgba(11, 16, 23, 0.75)' }
-    : { edge: '#5a6b7d', outside: 'rgba(120, 130, 140, 0.18)', text: '#26323d', field: '#8a6d00', swarm: '#00784f', target: '#8a2bb8', density: '#0072b2', halo: 'rgba(246, 248, 250, 0.75)' };
+    ? { edge: '#8fa3b8', outside: 'rgba(4, 8, 14, 0.45)', text: '#d8e0ea', field: '#d5b83c', swarm: '#2fd08c', target: '#d48bff', wrong: '#ff9b80', halo: 'rgba(11, 16, 23, 0.75)' }
+    : { edge: '#5a6b7d', outside: 'rgba(120, 130, 140, 0.18)', text: '#26323d', field: '#8a6d00', swarm: '#00784f', target: '#8a2bb8', wrong: '#a8321b', halo: 'rgba(246, 248, 250, 0.75)' };

@@ -15,8 +15,11 @@
 #include "cli/verbs/track/track_verb.h"
 #include "core/counted.h"
 #include "core/error.h"
+#include "core/file.h"
 #include "study/data/run_video.h"
+#include "study/pages/provenance_output.h"
 #include "study/pages/tracks/preview_output.h"
+#include "study/pages/tracks/track_folder.h"
 #include "study/pages/tracks/track_json.h"
 #include "study/pages/tracks/track_report.h"
 #include "study/quality/rounded.h"
@@ -132,7 +135,25 @@ int preview(const TrackVerb& v, const Common& c) {
   return 0;
 }
 
-int track(const TrackVerb& v, const Common& c) {
+// The verb with the files of --result among its outputs, and their folder created.
+TrackVerb with_result(TrackVerb v) {
+  if (v.result.empty()) return v;
+  check_output_folder(v.result, "--result");
+  std::error_code ec;
+  std::filesystem::create_directories(v.result, ec);
+  if (ec) throw Error(Errc::usage, v.result.string(), "the folder cannot be created: " + ec.message());
+  v.out.push_back(v.result / track_files::kTracks);
+  if (v.per_track.empty()) v.per_track = v.result / track_files::kPerTrack;
+  if (v.report.empty()) v.report = v.result / track_files::kReport;
+  check_output(v.result / track_files::kSummary, {}, v.force, {});
+  return v;
+}
+
+int track(const TrackVerb& asked, const Common& c) {
+  if (!asked.edits.empty()) return apply_track_edits(asked, c);
+  if (!asked.result.empty() && (asked.videos.size() > 1 || !asked.folder.empty()))
+    throw Error(Errc::usage, "--result", "requires a single video; use --folder for several");
+  const TrackVerb v = with_result(asked);
   if (v.videos.size() > 1 || !v.folder.empty()) return track_videos(v, c);
   if (!v.engine.engine.empty())
     throw Error(Errc::usage, "--engine",
@@ -150,6 +171,11 @@ int track(const TrackVerb& v, const Common& c) {
     return !stop;
   });
   bar.clear();
+  if (!v.result.empty()) {
+    nlohmann::ordered_json summary = track_json(tracks);
+    add_provenance(summary, options.provenance);
+    write_file(v.result / track_files::kSummary, summary.dump() + "\n");
+  }
   if (!c.quiet && !c.json)
     for (const std::string& note : tracks.notes) print_stderr("faba: note: " + note);
   if (c.json) {
@@ -236,6 +262,15 @@ void add_track_options(CLI::App* v, TrackVerb& t) {
        "Several videos: directory of the results; default: runs/tracks. Each video has a folder in it, "
        "and outputs are names of files in this folder. An incomplete directory is resumed")
       ->check(not_empty);
+  v->add_option("--result", t.result,
+                "Write tracks.csv, per_track.csv, tracks.html and track.json into this folder: the result "
+                "that --edits and the page of `faba lab` read")
+      ->check(not_empty);
+  v->add_option(
+       "--edits", t.edits,
+       "Do not track: apply the cuts and changes of this file to a folder that --result has written, "
+       "and write the tracks that are used to --out, their features to --per-track")
+      ->check(not_empty);
   v->add_option("--swarm", t.swarm, "Write centroid and covariance of the swarm in each frame, as CSV");
   v->add_option("--overlay", t.overlay, "Write the video with the tracks, as MP4 or AVI");
   v->add_option("--report", t.report, "Write a page with all figures, as HTML");
@@ -246,7 +281,7 @@ void add_track_options(CLI::App* v, TrackVerb& t) {
       v->add_option("--preview", t.preview,
                     "Detect the cells in some frames only, write these frames as PNG, and do not track");
   for (const char* other :
-       {"--out", "--swarm", "--overlay", "--report", "--picture", "--per-track", "--figures"})
+       {"--out", "--result", "--swarm", "--overlay", "--report", "--picture", "--per-track", "--figures"})
     preview->excludes(other);
   v->add_option("--size", t.size_px, "Full width of a cell at half its contrast, px; default: measured")
       ->check(between(1, 60));
@@ -300,6 +335,8 @@ void add_track(CLI::App& app, CommandLine& line) {
       verb(app, line, "track", "Detect and track cells or beads in videos and measure how they move",
            "  faba track film.avi --um-per-px 0.35 --out tracks.csv --report tracks.html\n"
            "  faba track 'frames/frame_*.tif' --fps 26.87 --out tracks.h5 --overlay seen.mp4\n"
+           "  faba track film.avi --result runs/film\n"
+           "  faba track runs/film --edits runs/film/edits.toml --out fast.csv\n"
            "  faba track films/*.avi --folder runs/films --out tracks.csv --engine local");
   add_track_options(v, *t);
   v->callback([t, &line] { line.code = track(*t, line.common); });

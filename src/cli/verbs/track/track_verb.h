@@ -15,6 +15,8 @@ struct TrackVerb {
   std::vector<std::filesystem::path> videos, out;
   std::filesystem::path swarm, overlay, report, picture, figures, per_track, preview;
   std::filesystem::path folder;  ///< of the results of several videos
+  std::filesystem::path result;  ///< folder of the result of one video
+  std::filesystem::path edits;   ///< file with edits of such a result
   std::string scale;             ///< number or calibration file
   std::vector<int> region;       ///< column, row, width, height
   std::string polarity = "auto", background = "auto", motion = "auto";
@@ -32,6 +34,8 @@ void add_track_options(CLI::App* v, TrackVerb& o);
 TrackOptions options_of(const TrackVerb& v, const std::filesystem::path& video);
 /// Checks the names of the output files. `inputs`: they may not be replaced.
 void check_outputs(const TrackVerb& v, bool force, const std::vector<std::filesystem::path>& inputs);
+/// Applies a file of edits to the result of a tracking.
+int apply_track_edits(const TrackVerb& v, const Common& c);
 /// Tracks several videos, each into a folder of its own, in this process or by an engine.
 int track_videos(const TrackVerb& v, const Common& c);
 

@@ -152,12 +152,12 @@ Json joining_of(const TrackJoining& t) {
           {"links_reproduced", t.reproduced ? Json(*t.reproduced) : Json(nullptr)}};
 }
 
-Json populations_of(const TrackMeasurement& m) {
+Json populations_of(const std::vector<SpeedPopulation>& populations, const std::optional<double>& um_per_px) {
   Json all = Json::array();
-  for (const SpeedPopulation& p : m.populations)
+  for (const SpeedPopulation& p : populations)
     all.push_back({{"fraction", p.fraction},
                    {"speed_px_per_s", p.speed_px_s},
-                   {"speed_um_per_s", m.um_per_px ? Json(*m.um_per_px * p.speed_px_s) : Json(nullptr)},
+                   {"speed_um_per_s", um_per_px ? Json(*um_per_px * p.speed_px_s) : Json(nullptr)},
                    {"ci90", p.ci90},
                    {"motion", word_of(p.motion)},
                    {"tracks", p.tracks}});
@@ -229,6 +229,15 @@ const char* background_word(const TrackDetection& d) { return d.temporal ? "medi
 
 const char* word_of(Motion m) { return m == Motion::velocity ? "velocity" : "nearest"; }
 
+nlohmann::ordered_json motion_json(const TrackSummary& summary,
+                                   const std::vector<SpeedPopulation>& populations,
+                                   const std::optional<double>& um_per_px) {
+  Json j = Json::object();
+  add_summary(j, summary, populations.size() < 2, um_per_px.value_or(0));
+  j["populations"] = populations_of(populations, um_per_px);
+  return j;
+}
+
 nlohmann::ordered_json track_json(const TrackMeasurement& m) {
   Json j{{"video", m.video.string()}, {"frames", m.frames}, {"duration_s", m.duration_s},
          {"frame_s", m.frame_s},      {"timed", m.timed},   {"image_size", {m.width, m.height}}};
@@ -238,7 +247,7 @@ nlohmann::ordered_json track_json(const TrackMeasurement& m) {
   add_summary(j, m.summary, one_population(m), m.um_per_px.value_or(0));
   j["stage"] = stage_of(m.stage);
   j["track_quality"] = score_of(m);
-  j["populations"] = populations_of(m);
+  j["populations"] = populations_of(m.populations, m.um_per_px);
   add_quality(j, m.warnings);
   j["notes"] = m.notes;
   return j;

@@ -22,18 +22,12 @@ class CsvTracks final : public TrackOutput {
  public:
   explicit CsvTracks(std::filesystem::path path)
       : path_(std::move(path)), file_(temporary_name(path_), 0, path_) {
-    file_.append("track,frame,t_s,x_px,y_px,mass,snr\n");
+    file_.append(kTrackColumns);
   }
   ~CsvTracks() override {
     if (!complete_) remove_quietly(temporary_name(path_));
   }
-  void write(const Track& track) override {
-    std::string lines;
-    for (const TrackPoint& p : track.points)
-      fmt::format_to(std::back_inserter(lines), "{},{},{:.6f},{:.3f},{:.3f},{:.4g},{:.4g}\n", track.number,
-                     p.frame, p.t_s, p.x_px, p.y_px, p.mass, p.snr);
-    file_.append(lines);
-  }
+  void write(const Track& track) override { file_.append(track_rows(track)); }
   void complete() override {
     file_.sync();
     file_.close();
@@ -90,6 +84,14 @@ class H5Tracks final : public TrackOutput {
 };
 
 }  // namespace
+
+std::string track_rows(const Track& track) {
+  std::string lines;
+  for (const TrackPoint& p : track.points)
+    fmt::format_to(std::back_inserter(lines), "{},{},{:.6f},{:.3f},{:.3f},{:.4g},{:.4g}\n", track.number,
+                   p.frame, p.t_s, p.x_px, p.y_px, p.mass, p.snr);
+  return lines;
+}
 
 std::string per_track_csv(const std::vector<TrackScore>& scores) {
   std::string out =

@@ -30,6 +30,10 @@ struct TrackedVideo {
 /// extensions, Error(Errc::internal) when the file cannot be written.
 std::unique_ptr<TrackOutput> track_output(const std::filesystem::path& path, const TrackedVideo& video);
 
+/// The first line of the CSV table, and the lines of a track.
+inline constexpr const char* kTrackColumns = "track,frame,t_s,x_px,y_px,mass,snr\n";
+std::string track_rows(const Track& track);
+
 /// Table with a row for each track; lengths in px.
 std::string per_track_csv(const std::vector<TrackScore>& scores);
 

@@ -1,0 +1,26 @@
+// Units of lengths and currents in the readouts and plots.
+
+export type LengthChoice = 'um' | 'px';
+export interface LengthUnit {
+  name: 'µm' | 'px';
+  /** Length of a pixel in this unit. */
+  perPixel: number;
+}
+
+/** Micrometres if they are chosen and the scale is known, otherwise pixels. */
+export function lengthUnit(umPerPx: number | null | undefined, choice: LengthChoice): LengthUnit {
+  return choice === 'um' && umPerPx ? { name: 'µm', perPixel: umPerPx } : { name: 'px', perPixel: 1 };
+}
+
+/** A number of pixels in the unit, with one decimal place; "–" if it is not finite. */
+export const lengthText = (px: number, unit: LengthUnit) => (Number.isFinite(px) ? (px * unit.perPixel).toFixed(1) : '–');
+
+/** A current with three digits at most, in mA below 1 A; "–" if it is not finite. */
+export function currentText(amperes: number): string {
+  if (!Number.isFinite(amperes)) return '–';
+  const minus = (text: string) => text.replace('-', '−');
+  const milliamperes = amperes * 1e3;
+  if (Math.abs(milliamperes) >= 999.5) return `${minus(amperes.toFixed(2))} A`;
+  const text = milliamperes.toFixed(Math.abs(milliamperes) < 9.95 ? 1 : 0);
+  return `${minus(Number(text) === 0 ? '0' : text)} mA`;
+}
