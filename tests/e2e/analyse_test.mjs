@@ -42,7 +42,7 @@ faba('run', 'scenes/drop.toml', '--as-seen', '--duration', '0.4 s', '--out', 'ru
 mkdirSync(file('videos'));
 const recorded = readdirSync(file('runs/seen')).find((f) => /^video\.(mp4|avi)$/.test(f));
 for (const name of ['one', 'two', '-o', 'a "quoted" name']) copyFileSync(file('runs/seen', recorded), file('videos', name + recorded.slice(5)));
-writeFileSync(file('readings.csv'), 'width_um,px_1,px_2\n100,10,295\n200,20,590\n300,5,860\n');
+writeFileSync(file('readings.csv'), 'width_um,px_1,px_2\n100,285,286\n200,570,571\n300,855,857\n');
 {
   const [w, h, pitch] = [640, 480, 12.4], grey = Buffer.alloc(w * h, 205);
   for (let k = 1; k * pitch < w - 6; k++)
@@ -188,6 +188,17 @@ await step('a job that fails states why, and can be started again', async () => 
   await page.getByRole('button', { name: 'Start again' }).click();
   await done();
   complaints.length = 0; // the browser logs requests that are refused
+});
+
+await step('messages about uploaded files name the file, not a temporary path', async () => {
+  const answer = (name, body) =>
+    page.evaluate(([n, b]) => fetch(`/api/upload?name=${n}`, { method: 'POST', headers: { 'Content-Type': 'application/octet-stream' }, body: b }).then((r) => r.json()), [name, body]);
+  for (const [name, body] of [['notes.txt', 'text'], ['empty.mp4', ''], ['a.png', '\x89PNG'], ['a.toml', 'seed =']]) {
+    const { where, what } = await answer(name, body);
+    assert.equal(where, name);
+    assert.doesNotMatch(`${where}: ${what}`, /\/tmp|upload-|body/);
+  }
+  complaints.length = 0; // the browser logs the refused requests
 });
 
 await step('coils: map, trap, tolerance, fit, library', async () => {

@@ -27,8 +27,9 @@ if (pictures) mkdirSync(pictures, { recursive: true });
 
 export const faba = (...words) => JSON.parse(execFileSync(program, [...words, '--json'], { cwd: workspace, encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] }));
 
-/** The process of the server and its address; serveAgain() starts another server. */
+/** Files of the page from a folder, for development: --www FOLDER. */
 const www = option('www') ? ['--www', option('www')] : [];
+/** The process of the server and its address; serveAgain() starts another server. */
 export let { lab, address } = await serve(program, workspace, ...www);
 export async function serveAgain(...more) {
   ({ lab, address } = await serve(program, workspace, ...www, ...more));

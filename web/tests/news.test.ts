@@ -17,4 +17,8 @@ it('reports jobs that end, and not those that had ended before', () => {
   expect(news.toasts.map((t) => t.id)).toEqual([3]);
   // Jobs that ended between two messages.
   expect(news.take([job(5, 'done')], false).map((t) => t.id)).toEqual([5]);
+  // A failed job was started again: its message replaces the earlier one.
+  news.take([job(3, 'running')], false);
+  news.take([job(3, 'done')], false);
+  expect(news.toasts.filter((t) => t.id === 3).map((t) => t.error)).toEqual(['']);
 });

@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char* kStudies = "studies";
 
-// The name that a page uses for a scene of the gallery with this stem; empty if there is none.
+// The name that a page uses for a scene of the gallery with this stem; empty if it is not found.
 std::string scene_name(const std::string& name, const Workspace& w) {
   for (const fs::path& scene : w.scenes())
     if (scene.stem() == fs::path(name).stem()) return "scenes/" + scene.filename().string();

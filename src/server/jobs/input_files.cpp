@@ -15,7 +15,7 @@ namespace faba {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr int kDeepest = 5;
+constexpr int kDeepestFolder = 5;
 constexpr std::size_t kMostVisited = 50000, kMostListed = 5000;
 constexpr std::uintmax_t kLargestStudy = 1u << 20;  // bytes
 
@@ -128,7 +128,7 @@ struct Search {
   void folder(const fs::path& path, int depth) {
     std::error_code ec;
     if (const auto experiment = experiment_file(path)) add_experiment(workspace, path, *experiment, found);
-    if (depth > kDeepest) return;
+    if (depth > kDeepestFolder) return;
     for (const auto& e : fs::directory_iterator(path, ec)) {
       if (++visited > kMostVisited) return;
       if (e.path().filename().string().starts_with('.') || e.is_symlink(ec)) continue;

@@ -1,7 +1,6 @@
 #include "server/jobs/job_archive.h"
 
 #include <algorithm>
-#include <array>
 #include <set>
 
 #include "core/error.h"
@@ -11,13 +10,7 @@ namespace faba {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::array<const char*, 5> kStates = {"waiting", "running", "done", "failed", "cancelled"};
 constexpr std::uintmax_t kLargest = 64u << 20;  // bytes
-
-Job::State state_of(const std::string& word) {
-  const auto at = std::find(kStates.begin(), kStates.end(), word);
-  return at == kStates.end() ? Job::State::failed : Job::State(at - kStates.begin());
-}
 
 // `out`: the directory of the file. What the file states about places outside of it is not used.
 Job read_job(const fs::path& file, const fs::path& out) {
@@ -28,7 +21,7 @@ Job read_job(const fs::path& file, const fs::path& out) {
   job.work = j.at("work");
   job.estimate_s = j.at("estimate_s");
   job.estimate_measured = j.at("estimate_from") == "measured";
-  job.state = state_of(j.at("state"));
+  job.state = job_state(j.at("state").get<std::string>());
   job.seconds = j.at("seconds");
   job.ended = j.at("ended");
   job.error = j.at("error");
@@ -66,25 +59,6 @@ void write_job(const fs::path& workspace, const Job& job, bool listed) {
 }
 
 }  // namespace
-
-Json job_json(const Job& j) {
-  return {{"id", j.id},
-          {"title", j.title},
-          {"words", j.words},
-          {"page", j.page},
-          {"out", j.out},
-          {"kind", j.kind},
-          {"work", j.work},
-          {"estimate_s", j.estimate_s},
-          {"estimate_from", j.estimate_measured ? "measured" : "assumed"},
-          {"state", kStates[std::size_t(j.state)]},
-          {"doing", j.doing},
-          {"done", j.did},
-          {"of", j.of},
-          {"seconds", j.seconds},
-          {"ended", j.ended},
-          {"error", j.error}};
-}
 
 void keep_job(const fs::path& workspace, const Job& job) { write_job(workspace, job, true); }
 void forget_job(const fs::path& workspace, const Job& job) { write_job(workspace, job, false); }

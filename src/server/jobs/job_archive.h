@@ -1,5 +1,5 @@
 #pragma once
-#include "server/jobs/job_list.h"
+#include "server/jobs/job.h"
 
 namespace faba {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "server/jobs/job.h"
 #include "server/jobs/job_kind.h"
-#include "server/jobs/job_list.h"
 #include "server/workspace.h"
 
 namespace faba {

@@ -61,9 +61,9 @@ struct JobKind {
   std::string group;              ///< "videos", "models", "control" or "coils"
   std::vector<std::string> verb;  ///< {"field", "map"}
   std::string doc;
-  std::vector<JobInput> inputs;
-  std::vector<JobOutput> outputs;
-  std::string page;  ///< file that shows the result; empty: the values that the command prints
+  std::vector<JobInput> inputs = {};
+  std::vector<JobOutput> outputs = {};
+  std::string page = {};  ///< file that shows the result; empty: the values that the command prints
   JobWork work = JobWork::fixed;
   /// Initial estimate, until jobs of this kind are complete: a constant part, and one in proportion to the
   /// work. Measured on a machine with two cores, see job_kinds.cpp.

@@ -13,7 +13,7 @@ namespace faba {
 namespace {
 
 using In = JobInput::Kind;
-constexpr std::size_t kMostFiles = 200, kMostCurrents = 64, kLongestWords = 200;
+constexpr std::size_t kMostChosen = 200, kMostCurrents = 64, kLongestWords = 200;
 
 bool is_file(const JobInput& i) {
   constexpr In kFiles[] = {In::video,       In::picture, In::frame,     In::table,
@@ -103,7 +103,7 @@ std::string choice_of(const JobInput& i, const Json& value) {
   return word;
 }
 
-// Whether a page has given a value: an empty input is no value.
+// Whether a page has given a value; an empty input does not count.
 bool is_given(const Json& values, const std::string& key) {
   if (!values.contains(key)) return false;
   const Json& v = values[key];
@@ -144,8 +144,8 @@ std::string word_of(const JobInput& i, const Json& value) {
 
 std::vector<std::string> files_of(const JobInput& i, const Json& value, const Workspace& workspace) {
   const Json list = i.many && value.is_array() ? value : Json::array({value});
-  if (list.size() > kMostFiles)
-    refuse(i, fmt::format("{} files are too many; choose at most {}", list.size(), kMostFiles));
+  if (list.size() > kMostChosen)
+    refuse(i, fmt::format("{} files are too many; choose at most {}", list.size(), kMostChosen));
   std::vector<std::string> files;
   for (const Json& one : list) {
     if (!one.is_string())

@@ -1,6 +1,7 @@
 export const en = {
   'tab.tracks': 'Tracks',
   'tracks.title': 'Tracks',
+  'tracks.about': 'Detect, link, filter and correct the tracks of single cells, with the result in view.',
   'tracks.steps': 'Steps of the tracking',
   'tracks.step.detect': 'Detect',
   'tracks.step.link': 'Link',
@@ -36,6 +37,8 @@ export const en = {
   'tracks.background.spatial': 'each frame, smoothed',
   'tracks.scale': 'Scale (µm per px)',
   'tracks.scale_unknown': 'unknown: lengths in px',
+  'tracks.fps': 'Frames per second',
+  'tracks.fps_unknown': 'unknown',
   'tracks.reach': 'Maximum displacement',
   'tracks.reach_help': 'Between two frames. A larger value follows faster cells, but joins different ones more often.',
   'tracks.memory': 'Gap',
@@ -118,6 +121,7 @@ export const en = {
 export const pt: Record<keyof typeof en, string> = {
   'tab.tracks': 'Trajetórias',
   'tracks.title': 'Trajetórias',
+  'tracks.about': 'Detectar, ligar, filtrar e corrigir as trajetórias de células, com o resultado à vista.',
   'tracks.steps': 'Etapas do rastreamento',
   'tracks.step.detect': 'Detectar',
   'tracks.step.link': 'Ligar',
@@ -153,6 +157,8 @@ export const pt: Record<keyof typeof en, string> = {
   'tracks.background.spatial': 'cada quadro, suavizado',
   'tracks.scale': 'Escala (µm por px)',
   'tracks.scale_unknown': 'desconhecida: comprimentos em px',
+  'tracks.fps': 'Quadros por segundo',
+  'tracks.fps_unknown': 'desconhecido',
   'tracks.reach': 'Deslocamento máximo',
   'tracks.reach_help': 'Entre dois quadros. Um valor maior segue células mais rápidas, mas une células diferentes com mais frequência.',
   'tracks.memory': 'Lacuna',

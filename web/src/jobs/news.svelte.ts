@@ -22,7 +22,9 @@ export class JobNews {
     if (!before) return [];
     const active = (s?: string) => s === 'running' || s === 'waiting' || s === undefined;
     const ended = jobs.filter((j) => (j.state === 'done' || j.state === 'failed') && active(before.get(j.id))).map((j) => ({ id: j.id, title: j.title, error: j.state === 'failed' ? j.error || '?' : '' }));
-    if (ended.length) this.toasts = [...this.toasts, ...ended].slice(-kShown);
+    // A job that was started again replaces its earlier message.
+    const others = this.toasts.filter((t) => !ended.some((e) => e.id === t.id));
+    if (ended.length) this.toasts = [...others, ...ended].slice(-kShown);
     if (hidden) this.unseen += ended.length;
     return ended;
   }

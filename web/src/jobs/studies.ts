@@ -37,8 +37,8 @@ export function newFree(path: string, s: Schema): FreeParameter {
   const unit = s['x-unit'] ?? '', value = amount(s.default, unit);
   if (value === null || value <= 0) return { path, prior: s.type === 'integer' ? 'range' : 'full', a: withUnit(s.minimum!, unit), b: withUnit(s.maximum!, unit) };
   const low = Math.max(s.minimum!, value / 2), high = Math.min(s.maximum!, value * 2);
-  const whole = (v: number) => (s.type === 'integer' ? Math.round(v) : v);
-  return { path, prior: 'range', a: withUnit(whole(low), unit), b: withUnit(whole(high), unit) };
+  const rounded = (v: number) => (s.type === 'integer' ? Math.round(v) : v);
+  return { path, prior: 'range', a: withUnit(rounded(low), unit), b: withUnit(rounded(high), unit) };
 }
 /** A [[model]] of a study for identify. */
 export function candidateTable(c: CandidateModel) {
