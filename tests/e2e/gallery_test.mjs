@@ -1,7 +1,7 @@
 // Test of the gallery, the form and the set-up of the user's own drop in a browser. Stops with an error at the first failed
 // step. With --pictures FOLDER it saves screenshots in FOLDER; --www FOLDER reads the files of the page from a folder.
 //
-//   node tests/e2e/gallery_test.mjs --program build/faba --root . [--drops ../shared/data/drops] [--pictures FOLDER]
+//   node tests/e2e/gallery_test.mjs --program build/faba --root . [--data ../shared/data] [--pictures FOLDER]
 
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
@@ -70,7 +70,7 @@ await step('the simple panel starts the basic and fuzzy set-up of the thesis', a
   const preset = page.getByLabel('preset', { exact: true });
   assert.equal(await preset.inputValue(), 'IT-1', 'the form shows custom values for preset = "IT-1"');
   assert.match(await preset.locator('option:checked').textContent(), /IT-1 \(3 changed\)/);
-  await page.getByLabel('Set-up').selectOption({ label: 'Thesis, controller experiment, Basic model' });
+  await page.getByLabel('Ready-made set-up').selectOption({ label: 'Thesis, controller experiment, Basic model' });
   assert.equal(await page.getByLabel('Noise amplitude max_speed').inputValue(), '8');
   await page.getByLabel('Number of cells count').fill('120');
   await shot('simple');
@@ -96,7 +96,7 @@ await step('the full form is searched by title, key and description, and the cho
   await noise.fill('-3');
   await page.getByText('Noise amplitude “-3” must be at least 0').waitFor(); // object and cause, beside the control
   await shot('full-form');
-  await page.getByRole('button', { name: 'Undo' }).click();
+  await page.getByRole('button', { name: 'Undo', exact: true }).click();
   await page.reload();
   await panel('Scenario');
   assert.equal(await page.getByRole('button', { name: 'All settings', exact: true }).getAttribute('aria-pressed'), 'true');
@@ -146,7 +146,7 @@ await step(`the drop of ${real === picture ? 'a real picture' : 'a made picture'
   await page.getByRole('link', { name: '1. Picture' }).click();
   await choose(picture);
   await isAt('Edge');
-  await page.getByText(/radius 16\d(\.\d+)? ± 0\.\d+ px, 35\d° of the edge visible/).waitFor();
+  await page.getByText(/radius 16\d(\.\d+)? ± 0\.\d+ px, (35\d|360)° of the edge visible/).waitFor();
   await page.getByRole('link', { name: '1. Picture' }).click();
   await page.reload();
   await page.locator('.picture img').waitFor();
