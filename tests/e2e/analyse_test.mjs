@@ -264,8 +264,8 @@ await step('identify: a study is composed from the schema, and the terminal can 
   await page.getByLabel('reversal', { exact: true }).fill('0.2 s');
   await page.getByRole('group', { name: 'Add a model' }).getByRole('button', { name: 'dipole' }).click();
   await page.getByLabel('Add a free parameter').selectOption('swarm[0].count');
-  await page.getByRole('group', { name: 'dipole' }).getByLabel('lowest', { exact: true }).nth(1).fill('10');
-  await page.getByRole('group', { name: 'dipole' }).getByLabel('highest', { exact: true }).nth(1).fill('1000');
+  await page.getByRole('group', { name: 'dipole' }).getByLabel('lowest', { exact: true }).last().fill('10');
+  await page.getByRole('group', { name: 'dipole' }).getByLabel('highest', { exact: true }).last().fill('1000');
   await page.getByLabel('Name of the study').fill('Small study');
   await page.getByLabel('look', { exact: true }).selectOption('positions');
   await page.getByLabel('simulations', { exact: true }).fill('100');
