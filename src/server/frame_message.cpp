@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <vector>
 
 #include "core/portable_math.h"
 
@@ -17,7 +18,11 @@ constexpr double kFinest = 0.1;     // px
 constexpr double kSteps = 65535;    // 16 bits
 constexpr double kTurnParts = 255;  // 0 and 255 both mean heading 0
 
-enum Bit : std::uint16_t { kCells = 1, kFloats = 2, kHeadings = 4, kPicture = 8 };
+constexpr std::size_t kMostGridSwarms =
+    8;                               // 16 bits for two planes each; the page repeats its colours earlier
+constexpr int kDensitySquares = 64;  // along the longer side of the box
+
+enum Bit : std::uint16_t { kCells = 1, kFloats = 2, kHeadings = 4, kPicture = 8, kSites = 16 };
 
 template <class T>
 void put(std::string& out, T v) {
@@ -58,33 +63,9 @@ void put_positions(std::string& out, const FrameMessage& m, bool floats) {
   }
 }
 
-}  // namespace
-
-bool quantised(const PictureBox& box) {
-  return std::max(box.right - box.left, box.bottom - box.top) <= kFinest * kSteps;
-}
-
-std::string encode_frame(const FrameMessage& m) {
+// Positions, headings, and whether the cells respond.
+void put_cells(std::string& out, const FrameMessage& m, bool floats, bool headings) {
   const std::size_t n = m.x.size();
-  const bool floats = !quantised(m.box), headings = m.ux.size() == n && n > 0;
-  std::string out;
-  out.reserve(64 + m.rows.size_bytes() + m.field.size_bytes() + n * 10 + m.picture.size());
-  out += "FABA";
-  put(out, std::uint16_t(1));
-  put(out, std::uint16_t(kCells | (floats ? kFloats : 0) | (headings ? kHeadings : 0) |
-                         (m.picture.empty() ? 0 : kPicture)));
-  put(out, m.run);
-  put(out, std::uint32_t(n));
-  put(out, std::uint32_t(m.rows.size() / m.columns));
-  put(out, std::uint16_t(m.picture_columns));
-  put(out, std::uint16_t(m.picture_rows));
-  put(out, std::uint16_t(m.field_columns));
-  put(out, std::uint16_t(m.field_rows));
-  put(out, std::uint32_t(0));
-  put(out, m.frame);
-  put(out, m.t);
-  put_all(out, m.rows);
-  put_all(out, m.field);
   put_positions(out, m, floats);
   if (headings)
     for (std::size_t i = 0; i < n; ++i) {
@@ -96,6 +77,90 @@ std::string encode_frame(const FrameMessage& m) {
     for (std::size_t k = i; k < std::min(i + 8, n); ++k) bits |= unsigned(m.response[k] != 0) << (k - i);
     out += char(std::uint8_t(bits));
   }
+}
+
+// A grid of squares over the box, px.
+struct SquareGrid {
+  int columns, rows;
+  float per_px;
+
+  SquareGrid(const PictureBox& b, int along) {
+    constexpr double kRounding = 1e-9;  // a side that is a multiple of the square's has no further square
+    const double width = b.right - b.left, height = b.bottom - b.top, side = std::max(width, height) / along;
+    columns = std::max(1, int(std::ceil(width / side - kRounding)));
+    rows = std::max(1, int(std::ceil(height / side - kRounding)));
+    per_px = float(1 / side);
+  }
+  std::size_t size() const { return std::size_t(columns) * std::size_t(rows); }
+  /// The square at a distance from the upper left corner of the box, px.
+  std::size_t at(float x, float y) const {
+    const int c = std::clamp(int(x * per_px), 0, columns - 1), r = std::clamp(int(y * per_px), 0, rows - 1);
+    return std::size_t(r) * std::size_t(columns) + std::size_t(c);
+  }
+};
+
+// Two bit planes for each swarm, of responsive and of unresponsive cells, without the empty ones; then the
+// number of cells in the squares of a coarse grid, because several cells may be at one site.
+void put_sites(std::string& out, const FrameMessage& m, const SquareGrid& sites) {
+  const SquareGrid squares(m.box, kDensitySquares);
+  const std::size_t bytes = (sites.size() + 7) / 8;
+  std::vector<std::string> planes(2 * std::min(m.ends.size(), kMostGridSwarms));
+  std::vector<std::uint32_t> counts(squares.size());
+  const auto scale = float(1 / m.view.m_per_px);
+  const auto cx = float(m.view.centre_image.x - m.box.left), cy = float(m.view.centre_image.y - m.box.top);
+  for (std::size_t s = 0, i = 0; s < m.ends.size(); ++s)
+    for (; i < m.ends[s]; ++i) {
+      const float x = cx + m.x[i] * scale, y = cy - m.y[i] * scale;
+      const std::size_t site = sites.at(x, y);
+      std::string& plane = planes[2 * (s % kMostGridSwarms) + (m.response[i] != 0 ? 0 : 1)];
+      if (plane.empty()) plane.resize(bytes);
+      plane[site / 8] = char(std::uint8_t(plane[site / 8]) | (1U << (site % 8)));
+      ++counts[squares.at(x, y)];
+    }
+  unsigned present = 0;
+  for (std::size_t p = 0; p < planes.size(); ++p) present |= unsigned(!planes[p].empty()) << p;
+  put(out, std::uint16_t(planes.size()));
+  put(out, std::uint16_t(squares.columns));
+  put(out, std::uint16_t(squares.rows));
+  put(out, std::uint16_t(present));
+  for (const std::string& plane : planes) out += plane;
+  put_all(out, std::span<const std::uint32_t>(counts));
+}
+
+}  // namespace
+
+bool quantised(const PictureBox& box) {
+  return std::max(box.right - box.left, box.bottom - box.top) <= kFinest * kSteps;
+}
+
+std::string encode_frame(const FrameMessage& m) {
+  const std::size_t n = m.x.size();
+  const SquareGrid sites(m.box, std::max(1, m.sites));
+  const bool gridded = m.sites > 0, floats = !gridded && !quantised(m.box);
+  const bool headings = !gridded && m.ux.size() == n && n > 0;
+  std::string out;
+  out.reserve(64 + m.rows.size_bytes() + m.field.size_bytes() + n * 10 + m.picture.size());
+  out += "FABA";
+  put(out, std::uint16_t(1));
+  put(out, std::uint16_t(kCells | (floats ? kFloats : 0) | (headings ? kHeadings : 0) |
+                         (m.picture.empty() ? 0 : kPicture) | (gridded ? kSites : 0)));
+  put(out, m.run);
+  put(out, std::uint32_t(n));
+  put(out, std::uint32_t(m.rows.size() / m.columns));
+  put(out, std::uint16_t(m.picture_columns));
+  put(out, std::uint16_t(m.picture_rows));
+  put(out, std::uint16_t(m.field_columns));
+  put(out, std::uint16_t(m.field_rows));
+  put(out, std::uint16_t(gridded ? sites.columns : 0));
+  put(out, std::uint16_t(gridded ? sites.rows : 0));
+  put(out, m.frame);
+  put(out, m.t);
+  put_all(out, m.rows);
+  put_all(out, m.field);
+  if (gridded)
+    put_sites(out, m, sites);
+  else
+    put_cells(out, m, floats, headings);
   put_all(out, m.picture);
   return out;
 }

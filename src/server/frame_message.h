@@ -19,8 +19,12 @@ struct FrameMessage {
   std::uint64_t frame = 0;
   double t = 0;  ///< s
   Frame view;
-  PictureBox box;                   ///< bounding box of all cells
-  std::span<const float> x, y;      ///< m, world
+  PictureBox box;                     ///< bounding box of all cells
+  std::span<const float> x, y;        ///< m, world
+  std::span<const std::size_t> ends;  ///< index of the first cell after each swarm
+  /// Above 0: an occupancy grid with this number of sites along the longer side of the box replaces the
+  /// positions, because it is smaller for large swarms.
+  int sites = 0;
   std::span<const float> ux, uy;    ///< heading, world; empty for models without headings
   std::span<const float> response;  ///< 0: does not respond to the field
   std::span<const double> rows;     ///< rows of the series, `columns` values each

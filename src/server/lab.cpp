@@ -117,7 +117,7 @@ class Pages {
       case Do::restart:
         return lab_.restart(done);
       case Do::look:
-        lab_.set_view(s->id(), {m.camera, m.rate});
+        lab_.set_view(s->id(), {m.camera, m.rate, m.sites});
         return done(Json{{"ok", true}});
       case Do::steer: {
         const std::lock_guard lock(mutex_);

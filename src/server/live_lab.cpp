@@ -132,7 +132,7 @@ bool LiveLab::between_frames(const std::stop_token& stop) {
 }
 
 void LiveLab::publish(Clock::time_point now) {
-  std::shared_ptr<const std::string> plain, camera;
+  std::map<std::pair<bool, int>, std::shared_ptr<const std::string>> messages;  // by camera and sites
   const std::lock_guard lock(mutex_);
   for (auto& [who, w] : watchers_) {
     if (now < w.next && !paused_) continue;
@@ -141,8 +141,8 @@ void LiveLab::publish(Clock::time_point now) {
     const auto period =
         std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / w.view.rate));
     w.next = std::max(w.next + period, now);
-    auto& message = w.view.camera ? camera : plain;
-    if (!message) message = shown_->message(run_, w.view.camera);
+    auto& message = messages[{w.view.camera, w.view.sites}];
+    if (!message) message = shown_->message(run_, w.view.camera, w.view.sites);
     w.listener.frame(message);
   }
 }
@@ -215,7 +215,7 @@ void LiveLab::watch(std::uint64_t who, Listener l) {
         if (shown_) l.news(run_news());
         if (shown_ && shown_->history.size() > 0) l.news(history_news());
         l.news(state());
-        if (shown_ && shown_->live.frame() > 0) l.frame(shown_->message(run_, false));
+        if (shown_ && shown_->live.frame() > 0) l.frame(shown_->message(run_, false, 0));
         const std::lock_guard lock(mutex_);
         watchers_[who] = {l, {}, {}};
         return Json::object();
@@ -231,7 +231,7 @@ void LiveLab::set_view(std::uint64_t who, View w) {
         if (it == watchers_.end()) return Json::object();
         it->second.view = w;
         if (paused_ && shown_ && shown_->live.frame() > 0)
-          it->second.listener.frame(shown_->message(run_, w.camera));
+          it->second.listener.frame(shown_->message(run_, w.camera, w.sites));
         return Json::object();
       },
       [](const Json&) {});

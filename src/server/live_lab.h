@@ -24,6 +24,7 @@ class LiveLab {
   struct View {
     bool camera = false;
     double rate = 60;  ///< maximum frame rate, Hz
+    int sites = 0;     ///< see FrameMessage
   };
   struct Listener {
     std::function<void(std::shared_ptr<const std::string>)> frame;  ///< binary

@@ -24,7 +24,8 @@ constexpr std::array<std::pair<const char*, PageMessage::Do>, 11> kWords = {{
     {"save", PageMessage::Do::save},
     {"ping", PageMessage::Do::ping},
 }};
-constexpr int kDeepest = 32;  // scenarios have five levels
+constexpr double kMostSites = 4096;  // more than the pixels of a screen
+constexpr int kDeepest = 32;         // scenarios have five levels
 constexpr double kLongestRun = 1e6;  // s
 constexpr std::uint64_t kMostSeed = 1ull << 53;
 
@@ -83,6 +84,7 @@ PageMessage parse_page_message(std::string_view text) {
     case Do::look:
       m.camera = j.value("camera", Json(false)) == true;
       if (j.contains("rate")) m.rate = number(j, "rate", 0.1, 240);
+      if (j.contains("sites")) m.sites = int(number(j, "sites", 0, kMostSites));
       break;
     case Do::save:
       if (!j.contains("name") || !j["name"].is_string()) throw bad("name", "must be a string");

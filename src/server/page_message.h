@@ -18,6 +18,7 @@ struct PageMessage {
   double factor = 1;                  ///< speed
   bool camera = false;                ///< look
   double rate = 60;                   ///< look, Hz
+  int sites = 0;                      ///< look, see FrameMessage
   std::string name;                   ///< save
   bool as_seen = false;               ///< save
   double from = 0;                    ///< save, s

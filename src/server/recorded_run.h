@@ -7,9 +7,8 @@
 
 namespace faba {
 
-/// View, outline, swarms, number and rate of the recorded frames, and the time of the first one, of a run, for
-/// the page. Throws Error(input) for runs
-/// without tracks.
+/// View, outline, swarms, number and rate of the recorded frames, and the time of the first one, of a run,
+/// for the page. Throws Error(input) for runs without tracks.
 Json describe_run(const std::filesystem::path& dir);
 
 /// Frames in the format of the live lab (web/protocol.md), each after its length in bytes (uint32). `from` is

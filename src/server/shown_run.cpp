@@ -28,6 +28,7 @@ ShownRun::ShownRun(const Document& d, std::uint64_t seed, const Parts& parts, Po
   const Vec2 opposite =
       s.frame().image_from_world(low + double(g.cell) * Vec2{double(g.columns), double(g.rows)});
   box = {corner.x, opposite.y, opposite.x, corner.y};
+  for (const Population& p : s.world().parts().populations) ends.push_back(p.end);
   const bool varies = s.world().parts().table.has_value();
   const int nx = varies ? kFieldColumns : 1, ny = varies ? kFieldRows : 1;
   for (int j = 0; j < ny; ++j)
@@ -70,7 +71,7 @@ double ShownRun::mean_speed(double dt) {
   return first || !(dt > 0) ? std::numeric_limits<double>::quiet_NaN() : distance / (double(x.size()) * dt);
 }
 
-std::shared_ptr<const std::string> ShownRun::message(std::uint32_t run, bool camera) {
+std::shared_ptr<const std::string> ShownRun::message(std::uint32_t run, bool camera, int sites) {
   Simulation& s = live.simulation();
   const World& w = s.world();
   const auto& agents = w.state().agents;
@@ -87,6 +88,8 @@ std::shared_ptr<const std::string> ShownRun::message(std::uint32_t run, bool cam
     m.ux = agents["ux"];
     m.uy = agents["uy"];
   }
+  m.ends = ends;
+  m.sites = sites;
   m.rows = rows;
   m.columns = columns.size();
   const std::size_t n = field_x.size();

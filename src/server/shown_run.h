@@ -17,8 +17,8 @@ struct ShownRun final : Sink {
   void take(const Tick& t) override;
   /// Mean speed of all cells since the previous frame, m/s; the activity of a video is a measure of it.
   double mean_speed(double dt);
-  /// The newest frame as a FrameMessage, with the camera image if `camera`.
-  std::shared_ptr<const std::string> message(std::uint32_t run, bool camera);
+  /// The newest frame as a FrameMessage, with the camera image if `camera`; `sites` as there.
+  std::shared_ptr<const std::string> message(std::uint32_t run, bool camera, int sites);
 
   Document document;
   LiveRun live;
@@ -29,6 +29,7 @@ struct ShownRun final : Sink {
   double time = 0;
   std::vector<float> before_x, before_y;  ///< m, positions in the previous frame
   PictureBox box;
+  std::vector<std::size_t> ends;        ///< index of the first cell after each swarm
   std::vector<float> field_x, field_y;  ///< m, world, points of the displayed field
   int field_columns = 1, field_rows = 1;
 };

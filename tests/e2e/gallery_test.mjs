@@ -151,7 +151,7 @@ await step(`the drop of ${real === picture ? 'a real picture' : 'a made picture'
   await page.reload();
   await page.locator('.picture img').waitFor();
   await next().click();
-  const radius = page.getByLabel('radius r'), x = page.getByLabel('x', { exact: true });
+  const radius = page.getByLabel('radius r'), x = page.locator('.numbers input').first();
   const before = [Number(await x.inputValue()), Number(await radius.inputValue())];
   await page.getByRole('application').focus();
   await page.keyboard.press('Shift+ArrowRight');
@@ -262,7 +262,7 @@ await step('Portuguese, dark theme, small screen', async () => {
     await shot(`phone-${place.replace('/', '-')}`);
   }
   await page.goto(new URL('/#/gallery', address).href);
-  await page.getByText('Conduzir um enxame por uma rota').waitFor();
+  await page.getByRole('button', { name: 'Conduzir um enxame por uma rota' }).waitFor();
 });
 
 await step('the list of parts has its columns apart', async () => {

@@ -229,6 +229,7 @@ await step('the density of a large swarm is shown with its scale', async () => {
   const scenario = { arena: { type: 'drop', radius_px: 300 }, swarm: [{ count: 25000, model: { type: 'dipole', preset: 'IT-1' } }] };
   await page.evaluate((s) => document.querySelector('canvas.over').lab.ask('start', { scenario: s, seed: 1 }), scenario);
   await until(async () => (await read('density')).at(-1) > 0, 'the scale of the density is shown');
+  await until(() => page.evaluate(() => document.querySelector('canvas.over').lab.frame?.sites?.columns > 0), 'the server sends an occupancy grid');
   await shot('dense');
 });
 

@@ -47,11 +47,11 @@ async function downloaded(button) {
   return { name: file.suggestedFilename(), text: readFileSync(await file.path(), 'latin1') };
 }
 /** Starts a job and opens its result. */
-async function job(body) {
+async function job(kind, values) {
   const id = await page.evaluate(async (b) => {
     const r = await fetch('/api/jobs', { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(b) });
     return (await r.json()).id;
-  }, body);
+  }, { kind, values });
   const all = () => page.evaluate(() => fetch('/api/jobs').then((r) => r.json()));
   const find = async () => (await all()).find((j) => j.id === id);
   await page.evaluate((place) => (location.hash = place), `#/result?${new URLSearchParams({ page: (await find()).page, job: String(id) })}`);
@@ -62,7 +62,7 @@ async function job(body) {
     await page.waitForTimeout(200);
   }
   await page.locator('.report .plot').first().waitFor();
-  return find();
+  return page.evaluate((n) => fetch(`/api/jobs/${n}`).then((r) => r.json()), id);
 }
 /** The position on the screen of a value of a figure. */
 const screen = (k, x, y) =>
@@ -80,7 +80,7 @@ const readout = (k) => figure(k).locator('output').textContent();
 let signature;
 await step('the result of an activity job is a page of the lab, with its command', async () => {
   await page.goto(address);
-  const done = await job({ verb: 'activity', video: 'runs/short-response' });
+  const done = await job('activity', { videos: ['runs/short-response'] });
   run('activity', 'runs/short-response', '--out', 'activity.csv');
   signature = table(readFileSync(join(workspace, 'activity.csv'), 'utf8')).slice(1).map((r) => ({ t: (Number(r[1]) + Number(r[2])) / 2, along: Number(r[4]) }));
   assert.ok(signature.length > 20 && signature.every((s) => Number.isFinite(s.t + s.along)));
@@ -97,7 +97,7 @@ await step('the result of an activity job is a page of the lab, with its command
 
 await step('the exported CSV of a figure has the numbers of the program', async () => {
   const csv = await downloaded(figure(0).getByRole('button', { name: 'CSV' }));
-  assert.match(csv.name, /^activity-.*-figure-1\.csv$/);
+  assert.match(csv.name, /^report-figure-1\.csv$/);
   const rows = table(Buffer.from(csv.text, 'latin1').toString('utf8')), [head, ...body] = rows;
   assert.deepEqual(head.slice(0, 2), ['series', 'time (s)']);
   const own = body.filter((r) => r[0] === 'net flow along the direction');
@@ -195,7 +195,7 @@ await step('a report with foreign content is shown without it', async () => {
 
 await step('the report of a comparison has figures', async () => {
   run('run', 'scenes/short-response.toml', '--seed', '4', '--out', 'runs/other');
-  await job({ verb: 'compare', reference: 'runs/short-response', video: 'runs/other' });
+  await job('compare', { reference: 'runs/short-response', videos: ['runs/other'] });
   assert.ok((await page.locator('.report .plot').count()) > 0);
   await shot('result-compare');
 });
@@ -207,7 +207,7 @@ async function openBest(button) {
   await until(async () => Number((await page.locator('[data-read="time"]').textContent()).match(/[\d.]+/)?.[0]) > 0, 'the run advances');
 }
 await step('the best controller opens in the lab', async () => {
-  const done = await job({ verb: 'compare-controllers', study: 'studies/two.toml' });
+  const done = await job('compare-controllers', { study: 'studies/two.toml' });
   await shot('result-controllers');
   const best = done.result.controllers ?? done.result, combination = best.combinations.find((c) => c.excess_over_best_px === null);
   await page.getByText('Files', { exact: true }).click();
@@ -219,7 +219,7 @@ await step('the best controller opens in the lab', async () => {
 });
 
 await step('the best model opens in the lab, and is compared with the video', async () => {
-  await job({ verb: 'identify', study: 'studies/small.toml' });
+  await job('identify', { study: 'studies/small.toml' });
   await shot('result-identify');
   const result = await page.evaluate(() => location.hash);
   await openBest('Open the best model in the lab');

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -115,4 +116,46 @@ TEST_CASE("the camera image is last") {
   CHECK(at<std::uint16_t>(b, 20) == 3);
   CHECK(at<std::uint16_t>(b, 22) == 2);
   CHECK(b.substr(b.size() - 6) == std::string("\1\2\3\4\5\6"));
+}
+
+TEST_CASE("an occupancy grid has the site of every cell, and the number of cells in each square") {
+  const Swarm s(500, 2.9e-4, 1.9e-4);
+  const std::vector<double> rows = {1, 2, 3};
+  const std::vector<float> field = {1e-4F, 0, 2e-4F, -1e-4F};
+  FrameMessage m = message(s, rows, field);
+  const std::vector<std::size_t> ends = {200, 500};
+  m.ends = ends;
+  std::vector<float> responsive = s.response;
+  m.sites = 150;  // of a box of 300 x 200 px: 2 px each
+  const std::string b = encode_frame(m);
+  CHECK(at<std::uint16_t>(b, 6) == (1 | 16));
+  CHECK(at<std::uint32_t>(b, 12) == 500);
+  const int columns = at<std::uint16_t>(b, 28), grid_rows = at<std::uint16_t>(b, 30);
+  REQUIRE(columns == 150);
+  REQUIRE(grid_rows == 100);
+  const std::size_t grid = 48 + 3 * 8 + 2 * 8, bytes = 150 * 100 / 8, planes = grid + 8;
+  CHECK(at<std::uint16_t>(b, grid) == 4);
+  CHECK(at<std::uint16_t>(b, grid + 6) == 0b1111);
+  const int dc = at<std::uint16_t>(b, grid + 2), dr = at<std::uint16_t>(b, grid + 4);
+  CHECK(dc == 64);
+  CHECK(dr == 43);  // squares of 300 / 64 px
+  REQUIRE(b.size() == planes + 4 * bytes + std::size_t(dc * dr) * 4);
+  std::vector<std::string> expected(4, std::string(bytes, '\0'));
+  for (std::size_t i = 0; i < 500; ++i) {
+    const double x = 99.5 + double(s.x[i]) / 2e-6 + 50, y = 49.5 - double(s.y[i]) / 2e-6 + 50;
+    const auto site = std::size_t(y / 2) * 150 + std::size_t(x / 2);
+    char& byte = expected[(i < 200 ? 0U : 2U) + (s.response[i] != 0 ? 0U : 1U)][site / 8];
+    byte = char(std::uint8_t(byte) | (1U << (site % 8)));
+  }
+  for (std::size_t p = 0; p < 4; ++p) CHECK(b.substr(planes + p * bytes, bytes) == expected[p]);
+  std::uint32_t cells = 0;
+  for (int k = 0; k < dc * dr; ++k) cells += at<std::uint32_t>(b, planes + 4 * bytes + std::size_t(k) * 4);
+  CHECK(cells == 500);
+
+  // A plane without cells is left out.
+  std::fill(responsive.begin(), responsive.end(), 1.0F);
+  m.response = responsive;
+  const std::string all = encode_frame(m);
+  CHECK(at<std::uint16_t>(all, grid + 6) == 0b0101);
+  CHECK(all.size() == planes + 2 * bytes + std::size_t(dc * dr) * 4);
 }

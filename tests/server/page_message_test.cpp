@@ -20,6 +20,7 @@ TEST_CASE("valid messages of the page") {
   CHECK(parse_page_message(R"({"id":3,"do":"step"})").frames == 1);
   CHECK(parse_page_message(R"({"id":3,"do":"speed","factor":0.1})").factor == 0.1);
   CHECK(parse_page_message(R"({"id":3,"do":"look","camera":true})").camera);
+  CHECK(parse_page_message(R"({"id":3,"do":"look","sites":512})").sites == 512);
   const PageMessage all = parse_page_message(R"({"id":4,"do":"save","name":"a"})");
   CHECK(all.from == 0);
   CHECK_FALSE(all.to);
@@ -50,6 +51,8 @@ TEST_CASE("invalid messages throw an error") {
                                  std::string(R"({"id":1,"do":"speed"})"),
                                  std::string(R"({"id":1,"do":"step","frames":1e9})"),
                                  std::string(R"({"id":1,"do":"look","rate":0})"),
+                                 std::string(R"({"id":1,"do":"look","sites":5000})"),
+                                 std::string(R"({"id":1,"do":"look","sites":-1})"),
                                  std::string(R"({"id":1,"do":"save"})"),
                                  std::string(R"({"id":1,"do":"save","name":"a","from":-1})"),
                                  std::string(R"({"id":1,"do":"save","name":"a","to":"now"})"),

@@ -5,7 +5,7 @@ import { reversal } from './scenario';
 
 type Event = Record<string, any>;
 interface Change {
-  /** The event that undoes the change; null if there is none. */
+  /** The event that undoes the change; null if a part cannot be restored. */
   back: Event | null;
   event: Event;
   at: number;

@@ -1,14 +1,26 @@
 // Binary messages of the lab: protocol.md.
 
+/** Which sites of a grid over the box have a cell. */
+export interface Sites {
+  columns: number;
+  rows: number;
+  /** Bits of the sites, row by row, lowest bit first: for each swarm its responsive, then its other cells. */
+  planes: Uint8Array[];
+  /** Number of cells in the squares of a coarse grid. */
+  counts: { columns: number; rows: number; cells: Uint32Array };
+}
+
 export interface Frame {
   run: number;
   frame: number;
   t: number;
   cells: number;
-  /** Coordinates: parts of the box in 16 bits, or pixels. */
+  /** Coordinates: parts of the box in 16 bits, or pixels; empty with an occupancy grid. */
   xy: Uint16Array | Float32Array;
   headings: Uint8Array | null;
   responding: Uint8Array;
+  /** Occupancy grid in place of the positions. */
+  sites: Sites | null;
   /** Rows of the series, `columns` numbers each. */
   rows: Float64Array;
   rowCount: number;
@@ -52,22 +64,35 @@ export function decodeFrame(buffer: ArrayBuffer, columns: number): Frame {
   };
   const rows = new Float64Array(buffer.slice(take(rowCount * columns * 8), at));
   const field = new Float32Array(buffer.slice(take(gx * gy * 8), at));
+  const grid = bits & 16 ? { columns: v.getUint16(28, true), rows: v.getUint16(30, true) } : null;
+  const sites = grid && takeSites(buffer, take, grid);
+  const listed = grid ? 0 : cells; // cells with a position
   const floats = (bits & 2) !== 0;
-  const positions = take(cells * (floats ? 8 : 4));
-  const xy = floats ? new Float32Array(buffer, positions, cells * 2) : new Uint16Array(buffer, positions, cells * 2);
-  const headings = bits & 4 ? new Uint8Array(buffer, take(cells), cells) : null;
-  const responding = new Uint8Array(buffer, take(Math.ceil(cells / 8)), Math.ceil(cells / 8));
+  const positions = take(listed * (floats ? 8 : 4));
+  const xy = floats ? new Float32Array(buffer, positions, listed * 2) : new Uint16Array(buffer, positions, listed * 2);
+  const headings = bits & 4 ? new Uint8Array(buffer, take(listed), listed) : null;
+  const responding = new Uint8Array(buffer, take(Math.ceil(listed / 8)), Math.ceil(listed / 8));
   const picture = bits & 8 ? { width, height, grey: new Uint8Array(buffer, take(width * height), width * height) } : null;
   if (at !== buffer.byteLength) throw new Error(`The frame has ${buffer.byteLength} bytes; its header gives ${at}.`);
   return {
     run: v.getUint32(8, true),
     frame: Number(v.getBigUint64(32, true)),
     t: v.getFloat64(40, true),
-    cells, xy, headings, responding, rows, rowCount,
+    cells, xy, headings, responding, sites, rows, rowCount,
     field: { columns: gx, rows: gy, xy: field },
     picture,
     bytes: buffer.byteLength,
   };
+}
+
+function takeSites(buffer: ArrayBuffer, take: (bytes: number) => number, { columns, rows }: { columns: number; rows: number }): Sites {
+  const head = new DataView(buffer, take(8), 8), planes: Uint8Array[] = [], bytes = Math.ceil((columns * rows) / 8);
+  // Planes without cells are not in the message.
+  const present = head.getUint16(6, true);
+  for (let k = 0; k < head.getUint16(0, true); ++k) planes.push(present & (1 << k) ? new Uint8Array(buffer, take(bytes), bytes) : new Uint8Array(0));
+  const counts = { columns: head.getUint16(2, true), rows: head.getUint16(4, true) }, at = take(counts.columns * counts.rows * 4);
+  const cells = new Uint32Array(buffer.slice(at, at + counts.columns * counts.rows * 4));
+  return { columns, rows, planes, counts: { ...counts, cells } };
 }
 
 /** Whether a cell responds to the field. */

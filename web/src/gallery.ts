@@ -1,7 +1,7 @@
 // The gallery: scenes in sections by their purpose.
 
 import type { Say, Word } from './i18n';
-import { micro } from './text';
+import { withCode, type TextPart } from './text';
 
 export const kPurposes = ['start', 'steer', 'step-response', 'coils', 'thesis', 'yours'] as const;
 export type Purpose = (typeof kPurposes)[number];
@@ -41,11 +41,13 @@ export function bySection(scenes: SceneCard[]): Section[] {
 
 export const titleOfScene = (s: SceneCard, say: Say) => (say.language === 'pt' && s.title_pt) || s.title || s.name;
 
-/** One sentence: that of the index, or the first one of the comment. */
-export function summaryOf(s: SceneCard, say: Say): string {
-  const listed = (say.language === 'pt' && s.summary_pt) || s.summary;
-  return micro(listed || firstSentence(s.about ?? ''));
+/** One sentence: that of the index, or the first one of the comment. The Portuguese word "um" is not a unit. */
+export function summaryOf(s: SceneCard, say: Say): TextPart[] {
+  if (say.language === 'pt' && s.summary_pt) return [{ text: s.summary_pt, code: false }];
+  return withCode(s.summary || firstSentence(s.about ?? ''));
 }
+/** Whether the comment of a scene has more than its card shows. */
+export const hasMore = (s: SceneCard) => !!s.about && s.about !== (s.summary || firstSentence(s.about));
 /** The text up to the first full stop before a capital letter; a stop after an initial or an abbreviation does not end a sentence. */
 export function firstSentence(text: string): string {
   const end = /(?<!\b(?:Figs?|eqs?|approx|(?<!\b(?:and|or) )\p{Lu}))[.!?](?=\s+\p{Lu})/u.exec(text);

@@ -32,8 +32,6 @@ export interface Job {
   of: number;
   seconds: number;
   error: string;
-  /** What the job printed as JSON. */
-  result?: unknown;
 }
 export interface Trouble {
   where: string;

@@ -12,10 +12,10 @@ export function lengthUnit(umPerPx: number | null | undefined, choice: LengthCho
   return choice === 'um' && umPerPx ? { name: 'µm', perPixel: umPerPx } : { name: 'px', perPixel: 1 };
 }
 
-/** A number of pixels in the unit, with one decimal place; "–" if there is none. */
+/** A number of pixels in the unit, with one decimal place; "–" if it is not finite. */
 export const lengthText = (px: number, unit: LengthUnit) => (Number.isFinite(px) ? (px * unit.perPixel).toFixed(1) : '–');
 
-/** A current with three digits at most, in mA below 1 A; "–" if there is none. */
+/** A current with three digits at most, in mA below 1 A; "–" if it is not finite. */
 export function currentText(amperes: number): string {
   if (!Number.isFinite(amperes)) return '–';
   const minus = (text: string) => text.replace('-', '−');

@@ -195,3 +195,23 @@ describe('the run of a message', () => {
     expect(() => runOf(encode({ version: 3 }))).toThrow('version 3');
   });
 });
+
+test('an occupancy grid in place of the positions', () => {
+  const out = new Bytes();
+  for (const letter of 'FABA') out.u8(letter.charCodeAt(0));
+  [1, 1 + 16].forEach(out.u16);
+  [7, 70000, 0].forEach(out.u32); // run, cells, rows
+  [0, 0, 0, 0].forEach(out.u16); // camera image, field
+  [5, 3].forEach(out.u16); // sites
+  out.u64(9n);
+  out.f64(0.5);
+  [4, 2, 1, 0b1010].forEach(out.u16); // planes, coarse grid, which planes are in the message
+  [0b10000001, 0b1, 0, 0b1000000].forEach(out.u8); // two planes of 15 sites
+  [69999, 1].forEach(out.u32);
+  const f = decodeFrame(new Uint8Array(out.all).buffer, 3);
+  expect([f.cells, f.xy.length, f.frame]).toEqual([70000, 0, 9]);
+  expect(f.sites).toMatchObject({ columns: 5, rows: 3, counts: { columns: 2, rows: 1 } });
+  expect(f.sites!.planes.map((p) => [...p])).toEqual([[], [129, 1], [], [0, 64]]);
+  expect([...f.sites!.counts.cells]).toEqual([69999, 1]);
+  expect(() => decodeFrame(new Uint8Array(out.all.slice(0, -1)).buffer, 3)).toThrow('truncated');
+});

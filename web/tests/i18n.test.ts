@@ -9,7 +9,7 @@ const sources = Object.entries(import.meta.glob<string>('../src/**/*.{ts,svelte}
 );
 const text = sources.map(([, source]) => source).join('\n');
 /** Prefixes of composed keys, as in say(`tab.${t}`). */
-const prefixes = [...new Set([...text.matchAll(/`([a-z_.]+\.)\$\{/g)].map((m) => m[1]))];
+const prefixes = [...new Set([...text.matchAll(/`([a-z_]+(?:\.[a-z_]+)*\.)\$\{/g)].map((m) => m[1]))];
 
 describe('both languages', () => {
   test('have the same keys', () => {
@@ -60,7 +60,7 @@ describe('the sources', () => {
     const panels = /kPanels = \[([^\]]+)\]/.exec(text)![1].match(/\w+/g)!;
     const plots = [...text.matchAll(/\{ key: '(\w+)', unit/g)].map((m) => `plot.${m[1]}`);
     expect(plots.length).toBeGreaterThan(3);
-    expect(kKeys).toEqual(expect.arrayContaining([...states, ...layers, ...tabs, ...panels, ...plots]));
+    expect([...states, ...layers, ...tabs, ...panels, ...plots].filter((key) => !(kKeys as string[]).includes(key))).toEqual([]);
   });
 });
 

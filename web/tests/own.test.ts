@@ -1,5 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { circleThrough, kLeastRadius, kNew, middle, missing, ownScenario, reachable, umPerPx, withPicture, type Detection, type Own } from '../src/own/own';
+import type { Schema } from '../src/form/schema';
 import { sampleSchema } from './sample_schema';
 
 const picture: Detection = { picture: 'my drop.png', url: '/x', image_size: [640, 480], found: true, center_px: [320, 231], radius_px: 150, sd_px: { x: 0.3, y: 0.3, radius: 0.4 }, arc_deg: 355, upload: 'original-1.png' };
@@ -75,8 +76,12 @@ describe('the scenario', () => {
   });
   test('has the picture as background if the schema has one', () => {
     expect(ownScenario(sampleSchema, complete, 'p.png')).not.toHaveProperty('microscope');
-    const schema = { properties: { ...sampleSchema.properties, microscope: { properties: { background: { type: 'string' } } } } };
-    expect(ownScenario(schema, complete, 'p.png')!.microscope).toEqual({ background: 'p.png' });
+    const schema = { properties: { ...sampleSchema.properties, microscope: { properties: { background: { type: 'string' } } }, record: { properties: { as_seen: { type: 'boolean' } } } } };
+    expect(ownScenario(schema, complete, 'p.png')).toMatchObject({ microscope: { background: 'p.png' }, record: { as_seen: true } });
+  });
+  test('has a controller with duty cycle if there is one', () => {
+    const controller: Schema = { default: 'zeta', oneOf: [{ 'x-traits': ['feedback'], properties: { type: { const: 'zeta' } } }, { 'x-traits': ['feedback'], properties: { type: { const: 'eta' }, actuation: { enum: ['duty'] }, lead: {} } }] };
+    expect(ownScenario({ properties: { ...sampleSchema.properties, controller } }, complete, 'p.png')!.controller).toEqual({ type: 'eta', actuation: 'duty', lead: '100 ms' });
   });
   test('has a box without a circle, and a manual field to pull', () => {
     const own: Own = { ...complete, edge: 'box', circle: null, action: 'pull' };

@@ -50,11 +50,15 @@ class Video final : public RunSink {
   void finish(bool keep) override {
     if (!writer_) return;
     encoding_.wait();
+    if (writer_->sync() == 0) return;  // the run was stopped before the recorded part
     if (c_.jitter) {
       const auto every = std::uint64_t(c_.record.video_every);
+      const std::uint64_t first = c_.recorded.first;
+      // A video starts at 0 s.
+      const double start = first > 0 ? c_.frames->planned_time(first).value_or(0) : 0;
       writer_->finish(final_, keep, [&](long long frame) {
-        const auto planned = c_.frames->planned_time(c_.recorded.first + std::uint64_t(frame) * every);
-        return planned ? *planned : taken_at(std::size_t(frame));
+        const auto planned = c_.frames->planned_time(first + std::uint64_t(frame) * every);
+        return planned ? *planned - start : taken_at(std::size_t(frame));
       });
     } else {
       writer_->finish(final_, keep);

@@ -56,10 +56,10 @@ void add_schema(CLI::App& app, CommandLine& line) {
                      "Print the JSON Schema of a scenario, coil system or study file, for editors and forms",
                      "  faba schema > scenario.json\n  faba schema rig > rig.json\n  faba schema series");
   const auto of = std::make_shared<std::string>("scenario");
-  v->add_option(
-       "kind", *of,
-       "Kind of file: scenario (default), rig, experiment or engine; the verb that reads the study file; or series, "
-       "which lists the columns of series.csv")
+  v->add_option("kind", *of,
+                "Kind of file: scenario (default), rig, experiment or engine; the verb that reads the study "
+                "file; or series, "
+                "which lists the columns of series.csv")
       ->check(one_of({"scenario", "rig", "identify", "calibrate", "compare-controllers", "activity", "moment",
                       "experiment", "engine", "series"}));
   v->callback([of, &line] { line.code = schema(*of, line.common); });

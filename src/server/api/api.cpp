@@ -24,7 +24,8 @@ Api::Api(const Workspace& workspace, JobList& jobs, fs::path pictures, fs::path 
                    }),
       trash_(workspace),
       runs_(workspace, jobs, trash_),
-      lab_{workspace, jobs, std::move(pictures), builtin_parts(), bench_, experiments_, imports_, runs_, trash_} {
+      lab_{workspace, jobs,  std::move(pictures), builtin_parts(), bench_, experiments_, imports_,
+           runs_,     trash_} {
   routes_.add("GET", "/api/about", [this](const auto&, const auto&) {
     return json_answer({{"version", FABA_VERSION}, {"workspace", lab_.workspace.root()}});
   });

@@ -18,20 +18,24 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kBestScene = "best.toml";
-constexpr std::size_t kMostFiles = 200;
-
-// A result is named by its page, a file below runs/ or experiments/: "runs/study/identify.html".
-fs::path page_of(const LabServices& lab, const std::string& name) {
-  fs::path page = lab.workspace.existing(name);
-  const bool below = name.starts_with("runs/") || name.starts_with("experiments/");
-  if (!below || !fs::is_regular_file(page))
-    throw Error(Errc::usage, name,
-                "is not the page of a result; it must be a file below runs/ or experiments/");
-  return page;
-}
+constexpr std::size_t kMostResultFiles = 200;
 
 std::string in_workspace(const LabServices& lab, const fs::path& file) {
   return file.lexically_relative(lab.workspace.root()).generic_string();
+}
+
+// A result is named by its page, a file below runs/ or below the results of an experiment:
+// "runs/study/report.html".
+fs::path page_of(const LabServices& lab, const std::string& name) {
+  fs::path page = lab.workspace.existing(name);
+  const fs::path relative = page.lexically_relative(lab.workspace.root());
+  const std::vector<fs::path> parts(relative.begin(), relative.end());
+  const bool run = parts.size() > 1 && parts[0] == "runs";
+  const bool experiment = parts.size() > 3 && parts[0] == "experiments" && parts[2] == "results";
+  if (!fs::is_regular_file(page) || (!run && !experiment))
+    throw Error(Errc::usage, name,
+                "is not a result; it must be a file below runs/ or experiments/NAME/results/");
+  return page;
 }
 
 // The files of a result: those in its folder, or beside a page in runs/ those with the name of the page.
@@ -43,9 +47,10 @@ Json files_of(const LabServices& lab, const fs::path& page) {
   for (const auto& e : fs::directory_iterator(page.parent_path())) {
     const fs::path& file = e.path();
     if (!e.is_regular_file() || e.is_symlink() || file.filename().string().starts_with('.')) continue;
+    if (file.filename() == "job.json") continue;  // of the list of jobs
     if (alone && file.stem() != page.stem()) continue;
     const bool known = std::find(kKinds.begin(), kKinds.end(), file.extension()) != kKinds.end();
-    if (known && found.size() < kMostFiles) found.push_back(file);
+    if (known && found.size() < kMostResultFiles) found.push_back(file);
   }
   std::sort(found.begin(), found.end());
   Json files = Json::array();
@@ -133,6 +138,14 @@ std::string page_in(const WebRequest& r) {
   return it->second;
 }
 
+// A file of a result of an experiment; runs.cpp has those below runs/.
+WebResponse result_file(const LabServices& lab, const std::string& experiment, const std::string& name) {
+  const fs::path file = page_of(lab, "experiments/" + experiment + "/results/" + name);
+  WebResponse answer = file_answer(file);
+  answer.report = file.extension() == ".html";
+  return answer;
+}
+
 }  // namespace
 
 void add_result_routes(Routes& routes, const LabServices& lab) {
@@ -140,6 +153,8 @@ void add_result_routes(Routes& routes, const LabServices& lab) {
              [&lab](const auto& r, const auto&) { return json_answer(about_result(lab, page_in(r))); });
   routes.add("GET", "/api/results/scene",
              [&lab](const auto& r, const auto&) { return json_answer(best_scenario(lab, page_in(r))); });
+  routes.add("GET", "/experiments/*/results/**",
+             [&lab](const auto&, const auto& names) { return result_file(lab, names[0], names[1]); });
   routes.add("POST", "/api/results/compare",
              [&lab](const auto& r, const auto&) { return json_answer(compare_with_video(lab, body_of(r))); });
 }

@@ -36,12 +36,12 @@ std::string query_of(const WebRequest& r, const char* key) {
   return it->second;
 }
 
-constexpr std::int64_t kMostFrames = 1'000'000'000, kMostLinked = 50;
+constexpr std::int64_t kLastFrame = 1'000'000'000, kMostLinked = 50;
 
 // Answers {"ready": false, "done", "of"} until the video is surveyed.
 Json probe(TrackServices& t, const Json& asked, bool link) {
   const TrackRequest request = track_request(t.lab.workspace, asked);
-  const std::int64_t frame = integer_of(asked, "frame", 0, kMostFrames);
+  const std::int64_t frame = integer_of(asked, "frame", 0, kLastFrame);
   const ProbeList::State s = t.probes.get(request.options);
   if (!s.probe) return {{"ready", false}, {"done", s.done}, {"of", s.of}};
   Json j = link ? links_json(

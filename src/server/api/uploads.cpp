@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstdlib>
 #include <cctype>
+#include <cstdlib>
 #include <functional>
 
 #include "core/error.h"

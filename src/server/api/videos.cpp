@@ -5,10 +5,12 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/units.h"
 #include "server/api/lab_services.h"
 #include "server/api/responses.h"
 #include "server/videos/open_videos.h"
+#include "study/data/frame_flow.h"
+#include "study/drop/proposed_drop.h"
+#include "study/pages/drop_report.h"
 
 namespace faba {
 namespace {
@@ -81,7 +83,8 @@ FrameLook look_of(const WebRequest& r, const VideoFrames& video, const VideoFram
 }
 
 Json histogram_json(const GreyHistogram& h) {
-  return {{"least", h.least}, {"most", h.most}, {"low", h.low}, {"high", h.high}, {"counts", h.counts}};
+  return {{"least", h.least}, {"most", h.most}, {"step", h.step},
+          {"low", h.low},     {"high", h.high}, {"counts", h.counts}};
 }
 
 Json about(VideoFrames& video) {
@@ -107,6 +110,16 @@ Json end_of(VideoFrames& video) {
   const VideoFrameRef last = video.last();
   const double rate = video.fps() > 0 ? video.fps() : 1;
   return {{"frames", last->index + 1}, {"length_s", last->t_s + 1 / rate}, {"damage", video.damage()}};
+}
+
+// The flow from a frame to the next one; no arrows at the end.
+Json flow_json(const WebRequest& r, VideoFrames& video) {
+  const VideoFrameRef first = video.at(time_of(r, video)), second = video.next();
+  Json arrows = Json::array();
+  if (second)
+    for (const FlowArrow& a : flow_arrows(first->grey, second->grey, video.bits()))
+      arrows.push_back({a.x, a.y, a.u, a.v});
+  return {{"t_s", first->t_s}, {"arrows", arrows}};
 }
 
 template <class T>
@@ -172,6 +185,16 @@ void add_video_routes(Routes& routes, const LabServices& lab) {
   routes.add("GET", "/api/videos/histogram", [with](const auto& r, const auto&) {
     Json j;
     with(r, [&](VideoFrames& v) { j = histogram_json(grey_histogram(v.at(time_of(r, v))->grey)); });
+    return json_answer(j);
+  });
+  routes.add("GET", "/api/videos/flow", [with](const auto& r, const auto&) {
+    Json j;
+    with(r, [&](VideoFrames& v) { j = flow_json(r, v); });
+    return json_answer(j);
+  });
+  routes.add("GET", "/api/videos/edge", [with](const auto& r, const auto&) {
+    Json j;
+    with(r, [&](VideoFrames& v) { j = drop_json(propose_drop(v.at(time_of(r, v))->grey, text(r, "file"))); });
     return json_answer(j);
   });
   routes.add("GET", "/api/videos/frame", [with](const auto& r, const auto&) {

@@ -40,29 +40,37 @@ fs::path RunCatalogue::folder(const std::string& name) const {
 
 Json RunCatalogue::list() {
   const std::lock_guard lock(mutex_);
-  Json all = Json::array();
   std::map<std::string, Known> known;
-  const auto until = Clock::now() + kMeasuring;
+  std::vector<std::string> order;
   for (const std::string& name : workspace_.runs()) {
     try {
-      const fs::path dir = folder(name);
-      Known run{fs::last_write_time(dir / run_files::kManifest), fs::last_write_time(dir), {}};
-      const auto before = known_.find(name);
-      if (before != known_.end() && before->second.manifest == run.manifest &&
-          before->second.folder == run.folder)
-        run.card = std::move(before->second.card);
-      else
-        run.card = run_card(name, dir);
-      if (run.card["measured"] == false && Clock::now() < until) measure_run(run.card, dir);
-      all.push_back(run.card);
-      all.back()["writing"] = run.card["complete"] == false && RunLock::held(dir);
-      known.emplace(name, std::move(run));
+      known.emplace(name, look_at(name));
+      order.push_back(name);
     } catch (const std::exception&) {
       continue;  // an invalid manifest, or a run that is being deleted, must not hide the other runs
     }
   }
   known_ = std::move(known);
+  const auto until = Clock::now() + kMeasuring;
+  Json all = Json::array();
+  for (const std::string& name : order) {
+    Json& card = known_[name].card;
+    const fs::path dir = workspace_.root() / path_of(name);
+    if (card["measured"] == false && Clock::now() < until) measure_run(card, dir);
+    all.push_back(card);
+    all.back()["writing"] = card["complete"] == false && RunLock::held(dir);
+  }
   return all;
+}
+
+RunCatalogue::Known RunCatalogue::look_at(const std::string& name) {
+  const fs::path dir = folder(name);
+  Known run{fs::last_write_time(dir / run_files::kManifest), fs::last_write_time(dir), {}};
+  const auto before = known_.find(name);
+  const bool same = before != known_.end() && before->second.manifest == run.manifest &&
+                    before->second.folder == run.folder;
+  run.card = same ? std::move(before->second.card) : run_card(name, dir);
+  return run;
 }
 
 std::uint64_t RunCatalogue::size(const std::string& name) const { return bytes_of(folder(name)); }

@@ -39,6 +39,8 @@ class RunCatalogue {
     std::filesystem::file_time_type manifest, folder;  ///< times of the last changes
     Json card;
   };
+  /// What is known of a run, or what its manifest says if it has changed.
+  Known look_at(const std::string& name);
   void check_unused(const std::string& name, const std::filesystem::path& dir) const;
 
   const Workspace& workspace_;

@@ -11,7 +11,7 @@ namespace faba {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::size_t kKept = 3;
+constexpr std::size_t kKeptSurveys = 3;
 constexpr std::chrono::milliseconds kPatience{150};
 
 // Changes with the content of the video.
@@ -29,7 +29,7 @@ std::string key_of(const TrackOptions& o) {
                      o.inside_drop);
 }
 
-// Moves the element with the key to the front. False if there is none.
+// Moves the element with the key to the front. False if no element has it.
 template <class List, class KeyOf>
 bool to_front(List& list, const std::string& key, const KeyOf& key_of_element) {
   const auto it =
@@ -82,7 +82,8 @@ ProbeList::State ProbeList::get(const TrackOptions& options) {
     std::unique_lock lock(mutex_);
     if (!to_front(surveys_, key, [](const auto& s) { return s->key; })) begin(key, options);
     const std::shared_ptr<Survey> survey = surveys_.front();
-    while (surveys_.size() > kKept) dropped.splice(dropped.begin(), surveys_, std::prev(surveys_.end()));
+    while (surveys_.size() > kKeptSurveys)
+      dropped.splice(dropped.begin(), surveys_, std::prev(surveys_.end()));
     changed_.wait_for(lock, kPatience, [&] { return survey->state.probe || survey->error; });
     state = survey->state;
     error = survey->error;

@@ -21,7 +21,7 @@ struct NumberSetting {
   bool integer;
   void (*set)(TrackOptions& o, double value);
 };
-constexpr std::array<NumberSetting, 10> kNumbers{{
+constexpr std::array<NumberSetting, 10> kNumberSettings{{
     {"size", " px", 1, 60, false, [](TrackOptions& o, double v) { o.size_px = v; }},
     {"threshold", "", 1, 1e6, false, [](TrackOptions& o, double v) { o.threshold_sd = v; }},
     {"reach", " px", 0.1, 1e5, false, [](TrackOptions& o, double v) { o.tracker.search_radius_px = v; }},
@@ -43,7 +43,7 @@ struct WordSetting {
   std::vector<std::string> words;
   void (*set)(TrackOptions& o, std::size_t word);
 };
-const std::array<WordSetting, 3> kWords{{
+const std::array<WordSetting, 3> kWordSettings{{
     {"polarity",
      {"auto", "dark", "bright", "both"},
      [](TrackOptions& o, std::size_t w) { o.polarity = Polarity(w); }},
@@ -97,8 +97,8 @@ TrackRequest track_request(const Workspace& workspace, const Json& asked) {
   TrackRequest out;
   out.file = text_of(asked, "file");
   out.options.video = workspace.existing(out.file);
-  for (const NumberSetting& s : kNumbers) take_number(s, asked, out);
-  for (const WordSetting& s : kWords) take_word(s, asked, out);
+  for (const NumberSetting& s : kNumberSettings) take_number(s, asked, out);
+  for (const WordSetting& s : kWordSettings) take_word(s, asked, out);
   take_region(asked, out);
   if (const auto it = asked.find("drop"); it != asked.end() && it->is_boolean() && it->get<bool>()) {
     out.options.inside_drop = true;

@@ -19,12 +19,12 @@ namespace faba {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::size_t kKept = 3, kMostListed = 200;
+constexpr std::size_t kKeptResults = 3, kMostResults = 200;
 constexpr const char* kEditedTracks = "edited_tracks.csv";
 constexpr const char* kEditedFeatures = "edited_features.csv";
 constexpr std::array<const char*, 4> kFates = {"passes", "cut", "deleted", "kept"};
 
-std::string revision_of(const std::string& content) {
+std::string edits_revision(const std::string& content) {
   Hash h;
   h.text(content);
   return h.hex();
@@ -54,7 +54,7 @@ Json TrackResults::list() const {
   std::sort(found.rbegin(), found.rend());
   Json all = Json::array();
   for (const auto& [_, dir] : found) {
-    if (all.size() >= kMostListed) break;
+    if (all.size() >= kMostResults) break;
     const Json j = Json::parse(read_file(dir / track_files::kSummary), nullptr, false);
     if (!j.is_object()) continue;
     all.push_back({{"folder", fs::relative(dir, workspace_.root(), ec).string()},
@@ -91,7 +91,7 @@ std::shared_ptr<const TrackResults::Loaded> TrackResults::load(const std::string
   const fs::path dir = path(folder);
   const std::string edits = edits_text(dir);
   const auto changed = fs::last_write_time(dir / track_files::kSummary).time_since_epoch().count();
-  const std::string key = fmt::format("{}\n{}", dir.string(), changed), revision = revision_of(edits);
+  const std::string key = fmt::format("{}\n{}", dir.string(), changed), revision = edits_revision(edits);
   const std::lock_guard lock(mutex_);
   const auto at = std::find_if(loaded_.begin(), loaded_.end(), [&](const auto& r) { return r->key == key; });
   if (at != loaded_.end()) loaded_.splice(loaded_.begin(), loaded_, at);
@@ -104,7 +104,7 @@ std::shared_ptr<const TrackResults::Loaded> TrackResults::load(const std::string
   r->edited = apply_edits(r->folder, read_track_edits(dir, r->folder));
   if (known) loaded_.pop_front();
   loaded_.push_front(r);
-  if (loaded_.size() > kKept) loaded_.pop_back();
+  if (loaded_.size() > kKeptResults) loaded_.pop_back();
   return r;
 }
 

@@ -6,8 +6,6 @@
 namespace faba {
 namespace {
 
-constexpr std::size_t kBytesPerPixel = 16;  // two frames of floats, and those in the decoder
-
 std::filesystem::file_time_type changed_at(const std::filesystem::path& path) {
   std::error_code absent;
   return std::filesystem::last_write_time(path, absent);
@@ -60,14 +58,18 @@ void OpenVideos::close_oldest() {
   while (videos_.size() > 1 && (videos_.size() > kMostVideos || bytes() > kMostBytes)) videos_.pop_back();
 }
 
+std::size_t OpenVideos::size() const {
+  const std::lock_guard lock(mutex_);
+  return videos_.size();
+}
+
 void OpenVideos::with(const std::filesystem::path& path, const std::function<void(VideoFrames&)>& use) {
   const std::shared_ptr<Video> video = video_of(path);
   const std::lock_guard in_use(video->mutex);
   if (!video->frames) {
     video->frames.emplace(path);
     const std::lock_guard lock(mutex_);
-    video->bytes =
-        kBytesPerPixel * std::size_t(video->frames->width()) * std::size_t(video->frames->height());
+    video->bytes = video->frames->bytes();
     close_oldest();
   }
   use(*video->frames);

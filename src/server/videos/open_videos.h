@@ -17,6 +17,7 @@ class OpenVideos {
   /// Calls `use` with the video, opened again if the file has changed. Throws as VideoFrames.
   void with(const std::filesystem::path& path, const std::function<void(VideoFrames&)>& use);
 
+  std::size_t size() const;  ///< number of open videos
   static constexpr std::size_t kMostVideos = 8;
   static constexpr std::size_t kMostBytes = std::size_t{256} << 20;  ///< estimated, of the decoded frames
 
@@ -25,7 +26,7 @@ class OpenVideos {
   std::shared_ptr<Video> video_of(const std::filesystem::path& path);
   void close_oldest();
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::list<std::shared_ptr<Video>> videos_;  ///< the one that was used last is the first
 };
 

@@ -2,105 +2,145 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
+#include <vector>
 
+#include "core/error.h"
 #include "vision/files/frame_encoder.h"
 #include "vision/image/kernels/grey_scale.h"
 
 namespace faba {
 namespace {
 
+constexpr std::size_t kMostIntervals = 256;
 constexpr double kSameTime = 1e-6;  // s, rounding of times that are computed from time stamps
-constexpr double kNear = 16;        // frames that are read on for, instead of seeking (assumed)
+constexpr double kNearFrames = 16;  // frames that are read on for, instead of seeking (assumed)
+constexpr std::size_t kMostKnown = 12, kMostKnownBytes = std::size_t{48} << 20;
 
 }  // namespace
 
 VideoFrames::VideoFrames(const std::filesystem::path& path) : video_(run_video(path)) {
   reader_.emplace(video_.file);
   frames_stated_ = reader_->frames_in_header();
+  interval_s_ = 1 / (fps() > 0 ? fps() : 1);
+  const std::size_t frame_bytes = sizeof(float) * std::size_t(width()) * std::size_t(height());
+  most_known_ = std::clamp<std::size_t>(kMostKnownBytes / frame_bytes, 2, kMostKnown);
 }
 
 std::string VideoFrames::damage() const { return damage_.empty() ? reader_->damage() : damage_; }
 
+std::size_t VideoFrames::bytes() const {
+  constexpr std::size_t kDecoder = 4;  // frames, assumed
+  return (most_known_ + kDecoder) * sizeof(float) * std::size_t(width()) * std::size_t(height());
+}
+
 VideoFrameRef VideoFrames::at(double t_s) {
   t_s = std::max(0.0, t_s);
-  if (shown_ && follows_shown(t_s)) {
-    while (!ended_ && ahead_->t_s <= t_s + kSameTime) next();
-    return shown_;
+  shown_ = nullptr;
+  if (covers(t_s)) {
+    while (known_.back()->t_s <= t_s + kSameTime && read_on()) {
+    }
+  } else if (!start_before(t_s)) {
+    throw Error(Errc::input, video_.file.string(), "no frame can be decoded");
   }
-  if (!start_before(t_s)) throw Error(Errc::input, video_.file.string(), "no frame can be decoded");
+  show(t_s);
   return shown_;
 }
 
 VideoFrameRef VideoFrames::next() {
   if (!shown_) return at(0);
-  if (ended_) return nullptr;
-  shown_ = std::exchange(ahead_, read());
-  ended_ = !ahead_;
+  if (shown_ == known_.back() && !read_on()) return nullptr;
+  shown_ = *std::next(std::find(known_.begin(), known_.end(), shown_));
   return shown_;
 }
 
 VideoFrameRef VideoFrames::last() {
-  const double rate = fps() > 0 ? fps() : 1;
-  // The length in the header may be that of a truncated file before it was truncated.
-  if (frames_stated_ > 1) at(double(frames_stated_ - 1) / rate);
+  // The length in the header may be that of the file before it was truncated.
+  if (frames_stated_ > 1) at(double(frames_stated_ - 1) * interval_s_);
   while (next()) {
   }
   return shown_;
 }
 
-// Whether the frame at `t_s` is the shown one, or one of the next.
-bool VideoFrames::follows_shown(double t_s) const {
-  if (t_s + kSameTime < shown_->t_s) return false;
-  if (ended_) return true;
-  return t_s <= ahead_->t_s + kNear / (fps() > 0 ? fps() : 1);
+// Whether the frame at `t_s` is known, or one of the next.
+bool VideoFrames::covers(double t_s) const {
+  if (known_.empty() || t_s + kSameTime < known_.front()->t_s) return false;
+  return ended_ || t_s <= known_.back()->t_s + kNearFrames * interval_s_;
 }
 
-// Reads the frame at `t_s` into `shown_`, and the next one into `ahead_`. False if there is no frame at all.
+// Shows the last known frame that is not after `t_s`, or the first one.
+void VideoFrames::show(double t_s) {
+  const auto after = std::find_if(known_.begin(), known_.end(),
+                                  [&](const VideoFrameRef& f) { return f->t_s > t_s + kSameTime; });
+  shown_ = after == known_.begin() ? known_.front() : *std::prev(after);
+}
+
+// Reads the frame at `t_s` and the next one into `known_`. False if there is no frame at all.
 bool VideoFrames::start_before(double t_s) {
   for (const double earlier_s : {0.0, 2.0})
-    if (reader_->seek(std::max(0.0, t_s - earlier_s)) && read_until(t_s)) return true;
+    if (reader_->seek(std::max(0.0, t_s - earlier_s)) && read_until(t_s, true)) return true;
+  // The last key frame may be damaged, so no frame is skipped.
+  if (reader_->seek(last_readable(t_s)) && read_until(t_s, false)) return true;
   reopen();
-  reader_->skip_to(t_s);
-  if (read_until(t_s)) return true;
+  if (read_until(t_s, false)) return true;
   reopen();
-  shown_ = read();
-  ahead_ = shown_ ? read() : nullptr;
-  ended_ = !ahead_;
-  return shown_ != nullptr;
+  known_.clear();
+  ended_ = false;
+  return read_on();
 }
 
-// Converting a frame takes as long as decoding it, so this is done only for the frames that may be the last
-// one before `t_s`: those in the last two frame intervals. After a gap in time there may be none; its last
-// frame is then read again. Returns false if there is no frame, or only frames after `t_s`.
-bool VideoFrames::read_until(double t_s) {
-  const double interval = 1 / (fps() > 0 ? fps() : 1);
-  shown_ = ahead_ = nullptr;
+// A time before `t_s`, to about a second, at which a frame can be read, if none can be read at `t_s`: the
+// file may be truncated before it.
+double VideoFrames::last_readable(double t_s) {
+  double readable = 0, missing = t_s, t = 0;
+  while (missing - readable > std::max(1.0, kNearFrames * interval_s_)) {
+    const double middle = (readable + missing) / 2;
+    (reader_->seek(middle) && reader_->next(t) ? readable : missing) = middle;
+  }
+  return readable;
+}
+
+// Converting a frame takes as long as decoding it, so this is done only for the last frames before `t_s`;
+// with `skip`, frames before the last key frame are not even decoded. After a gap in time there may be none;
+// the frame before it is then read again. Returns false if there is no frame, or only frames after `t_s`.
+bool VideoFrames::read_until(double t_s, bool skip) {
+  known_.clear();
+  shown_ = nullptr;
+  ended_ = false;
+  const double first_s = t_s - double(most_known_ - 1) * interval_s_;
+  if (skip) reader_->skip_to(first_s);
   double t = 0, before = -1;
   while (reader_->next(t)) {
-    if (t > t_s + kSameTime) {
-      if (before < 0) return false;
-      ahead_ = converted(t);
-      break;
-    }
+    const bool after = t > t_s + kSameTime;
+    if (after && before < 0) return false;
+    if (after || t > first_s) add_converted(t);
+    if (after) break;
     before = t;
-    shown_ = t > t_s - 2 * interval ? converted(t) : nullptr;
   }
-  ended_ = !ahead_;
-  if (shown_ || before < 0) return shown_ != nullptr;
-  return before < t_s && start_before(before);
+  if (before < 0) return false;
+  ended_ = known_.empty() || known_.back()->t_s <= t_s + kSameTime;
+  const bool found = !known_.empty() && known_.front()->t_s <= t_s + kSameTime;
+  return found || (before < t_s && start_before(before));
 }
 
-VideoFrameRef VideoFrames::read() {
+bool VideoFrames::read_on() {
   double t = 0;
-  return reader_->next(t) ? converted(t) : nullptr;
+  if (ended_ || !reader_->next(t)) {
+    ended_ = true;
+    return false;
+  }
+  add_converted(t);
+  return true;
 }
 
-VideoFrameRef VideoFrames::converted(double t_s) {
+void VideoFrames::add_converted(double t_s) {
   auto frame = std::make_shared<VideoFrame>();
   reader_->picture(frame->grey);
   frame->t_s = t_s;
-  frame->index = std::llround(t_s * (fps() > 0 ? fps() : 1));
-  return frame;
+  frame->index = std::llround(t_s / interval_s_);
+  known_.push_back(frame);
+  if (known_.size() > most_known_) known_.pop_front();
 }
 
 void VideoFrames::reopen() {
@@ -117,8 +157,12 @@ GreyHistogram grey_histogram(const GrayF& picture) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   h.least = double(*least);
   h.most = double(*most);
-  const double steps = h.most > h.least ? 255.999 / (h.most - h.least) : 0;
-  for (const float v : values) ++h.counts[std::size_t((double(v) - h.least) * steps)];
+  const bool whole = std::all_of(values.begin(), values.end(), [](float v) { return v == std::floor(v); });
+  const double range = h.most - h.least;
+  h.step = whole ? std::ceil((range + 1) / kMostIntervals) : std::max(range, 1e-30) / kMostIntervals;
+  h.counts.resize(std::min(std::size_t(range / h.step) + 1, kMostIntervals));
+  for (const float v : values)
+    ++h.counts[std::min(std::size_t((double(v) - h.least) / h.step), h.counts.size() - 1)];
   const auto quantile = [&](double fraction) {
     const auto at = values.begin() + std::ptrdiff_t(fraction * double(values.size() - 1));
     std::nth_element(values.begin(), at, values.end());

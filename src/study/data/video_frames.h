@@ -1,10 +1,11 @@
 #pragma once
-#include <array>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "study/data/run_video.h"
 #include "vision/files/video_reader.h"
@@ -22,8 +23,8 @@ using VideoFrameRef = std::shared_ptr<const VideoFrame>;
 
 /// Frames of a video in any order, for display: of all files that VideoReader reads, and of run directories.
 /// Going forwards by few frames reads on; other frames are found by seeking, so that the time for a frame
-/// does not depend on the length of the video where the file has an index. Holds two frames in memory. Not
-/// thread-safe.
+/// does not depend on the length of the video where the file has an index. The last frames stay in memory, so
+/// that going backwards frame by frame is quick. Not thread-safe.
 class VideoFrames {
  public:
   /// Throws as run_video() and VideoReader.
@@ -46,28 +47,36 @@ class VideoFrames {
   VideoFrameRef next();
   /// The last frame. The damage of a truncated file is known afterwards.
   VideoFrameRef last();
+  /// Estimated memory use, bytes.
+  std::size_t bytes() const;
 
  private:
-  bool follows_shown(double t_s) const;
+  bool covers(double t_s) const;
+  void show(double t_s);
   bool start_before(double t_s);
-  bool read_until(double t_s);
-  VideoFrameRef read();
-  VideoFrameRef converted(double t_s);
+  bool read_until(double t_s, bool skip);
+  bool read_on();
+  void add_converted(double t_s);
+  double last_readable(double t_s);
   void reopen();
 
   RunVideo video_;
   std::optional<VideoReader> reader_;
   std::int64_t frames_stated_ = 0;
-  std::string damage_;           ///< of readers before reopen()
-  VideoFrameRef shown_, ahead_;  ///< the frame returned last, and the one after it
-  bool ended_ = false;           ///< no frame follows `shown_`
+  double interval_s_ = 1;            ///< mean time between two frames
+  std::size_t most_known_ = 2;       ///< length of `known_`
+  std::string damage_;               ///< of readers before reopen()
+  std::deque<VideoFrameRef> known_;  ///< frames that follow each other; the reader is after the last one
+  VideoFrameRef shown_;              ///< the frame returned last, one of `known_`
+  bool ended_ = false;               ///< no frame follows the last one of `known_`
 };
 
-/// Grey values of a picture: counts in equal steps from `least` to `most`.
+/// Grey values of a picture, counted in up to 256 equal intervals from `least`.
 struct GreyHistogram {
   double least = 0, most = 0;
+  double step = 1;           ///< width of an interval; whole grey values where the picture has no others
   double low = 0, high = 0;  ///< quantiles of 0.1 % and 99.9 %, for an automatic contrast
-  std::array<std::int64_t, 256> counts{};
+  std::vector<std::int64_t> counts;  ///< empty: no pixel is finite
 };
 /// Pixels that are not finite are not counted.
 GreyHistogram grey_histogram(const GrayF& picture);

@@ -1,7 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "study/plot/plot_layers.h"
+#include "study/plot/plot.h"
+#include "study/plot/plot_map.h"
 
 namespace faba::drawing {
 

@@ -61,11 +61,12 @@ std::string data(const Scatter& s, const Map& map) {
 template <class Interval>
 std::string intervals(const char* name, const Interval& r) {
   std::vector<int> kept;
+  bool gap = false;
   for (std::size_t i = 0; i < std::min({r.x.size(), r.lo.size(), r.hi.size()}); ++i) {
-    if (std::isfinite(r.x[i] + r.lo[i] + r.hi[i]))
-      kept.push_back(int(i));
-    else if (!kept.empty() && kept.back() >= 0)
-      kept.push_back(-1);
+    const bool point = std::isfinite(r.x[i] + r.lo[i] + r.hi[i]);
+    if (point && gap && !kept.empty()) kept.push_back(-1);
+    if (point) kept.push_back(int(i));
+    gap = !point;
   }
   return kind(name) + data_attribute("x", data_column(r.x, kept)) +
          data_attribute("lo", data_column(r.lo, kept)) + data_attribute("hi", data_column(r.hi, kept));

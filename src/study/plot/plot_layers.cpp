@@ -25,12 +25,6 @@ constexpr std::array<Shade, 8> kShades{{{"blue", "#0072b2", "#56b4e9"},
                                         {"sky", "#56b4e9", "#0072b2"},
                                         {"text", "#1d2329", "#e6e9ec"},
                                         {"muted", "#5c6670", "#a4adb6"}}};
-// Renderers lose precision at larger coordinates.
-constexpr double kMaxCoordinate = 1e5;
-
-double coordinate(double fraction, bool flip, double size) {
-  return std::clamp((flip ? 1 - fraction : fraction) * size, -kMaxCoordinate, kMaxCoordinate);
-}
 
 }  // namespace
 
@@ -53,9 +47,6 @@ std::string style_sheet() {
 double character_count(std::string_view text) {
   return double(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
 }
-
-double Map::to_x(double v) const { return coordinate((v - x.lo) / x.length(), flip_x, w); }
-double Map::to_y(double v) const { return coordinate((v - y.lo) / y.length(), !flip_y, h); }
 
 std::string text_at(PlotPoint p, const char* anchor, const Shade& s, std::string_view text,
                     const char* more) {

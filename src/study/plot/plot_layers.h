@@ -1,10 +1,9 @@
 #pragma once
-#include <cmath>
-#include <limits>
 #include <string>
 #include <string_view>
 
 #include "study/plot/plot.h"
+#include "study/plot/plot_map.h"
 
 /// Implementation details of plot_svg.cpp: colours, coordinates and the drawing of one layer. Include
 /// plot_svg.h instead.
@@ -27,34 +26,6 @@ std::string style_sheet();
 inline constexpr double kText = 12, kTextWidth = 6.6;
 /// Number of characters of a UTF-8 text, to estimate its width.
 double character_count(std::string_view text);
-
-/// A point of the figure: x right, y down.
-struct PlotPoint {
-  double x, y;
-  int index = -1;  ///< in the data of its layer
-};
-
-/// A range of data, initially empty. Ignores non-finite values and values whose differences could overflow.
-struct Range {
-  double lo = std::numeric_limits<double>::infinity(), hi = -lo;
-  void take(double v) {
-    if (!(std::abs(v) < 1e100)) return;
-    if (v < lo) lo = v;
-    if (v > hi) hi = v;
-  }
-  bool empty() const { return lo > hi; }
-  double length() const { return hi - lo; }
-};
-
-/// Transforms data to coordinates of the drawing area, with upper left corner (0, 0) and size (w, h).
-struct Map {
-  Range x, y;
-  bool flip_x = false, flip_y = false;
-  double left = 0, top = 0, w = 0, h = 0;  ///< left and top: of the drawing area in the figure
-
-  double to_x(double v) const;
-  double to_y(double v) const;
-};
 
 /// A <text> element; `anchor` is start, middle or end, `more` further attributes.
 std::string text_at(PlotPoint p, const char* anchor, const Shade& s, std::string_view text,

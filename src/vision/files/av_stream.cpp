@@ -55,6 +55,7 @@ struct AvStream::Impl {
   bool still = false, frame_waiting = false, truncated = false;
   std::string probing_error;  // error logged while the file was opened, when its end was already reached
   bool holding = false, error_logged = false, all_read = false;
+  bool sought = false;  // by seek()
   // After damage: frames predicted from a lost frame are wrong as well.
   bool need_key_packet = false, need_key_frame = false;
   std::int64_t damaged = 0, delivered = 0;
@@ -246,7 +247,7 @@ std::int64_t AvStream::Impl::skip_to(double t_s) {
   sent += dropped;
   const std::int64_t skipped = sent - delivered;
   delivered = sent;
-  last_t = static_cast<double>(delivered - 1) / fps;
+  if (!sought) last_t = static_cast<double>(delivered - 1) / fps;
   return skipped;
 }
 
@@ -261,6 +262,7 @@ bool AvStream::Impl::seek(double t_s) {
   // The numbers of packets and frames are not known exactly any more; times come from the time stamps.
   delivered = sent = std::max<std::int64_t>(1, std::llround(t_s * fps));
   last_t = -std::numeric_limits<double>::infinity();
+  sought = true;
   return true;
 }
 

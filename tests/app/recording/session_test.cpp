@@ -141,6 +141,35 @@ TEST_CASE("a run that records a part, stopped before and in the part and resumed
   }
 }
 
+TEST_CASE("the video of a part starts at 0 s and has the times of its frames") {
+  const TestFolder f;
+  const Scenario scene = scenario_from(R"(
+duration = "2 s"
+camera = { rate = "20 Hz", jitter = "5 ms" }
+controller = { type = "manual", field = ["1 mT", "0 T"] }
+record = { from = 1, video_every = 3, tracks_every = 2 }
+[[swarm]]
+count = 10
+)");
+  Session part = Session::begin(scene, 7, options(f.path / "part"));
+  REQUIRE(part.run());
+  const Table series = part.series();
+  REQUIRE(series.size() == 20);
+  VideoReader video(f.path / "part/video.mp4");
+  GrayF picture;
+  double t = 0;
+  std::size_t frames = 0;
+  for (; video.read(picture, t); ++frames)
+    CHECK(t == doctest::Approx(series.column("t_s")[3 * frames] - series.column("t_s")[0]).epsilon(1e-4));
+  CHECK(frames == 7);
+  const H5File tracks = H5File::open(f.path / "part/tracks.h5");
+  const H5Table numbers = tracks.table("frame");
+  REQUIRE(numbers.rows() == 10);
+  std::uint64_t number = 0;
+  numbers.read<std::uint64_t>(0, {&number, 1});
+  CHECK(number == 20);
+}
+
 TEST_CASE("a recorded part must contain a frame of the run") {
   const std::string scene = std::string("duration = 4\n[[swarm]]\ncount = 1\n[record]\n");
   const auto refused = [&](const std::string& record, const char* why) {

@@ -3,7 +3,8 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include <chrono>
+#include <algorithm>
+#include <ctime>
 
 #include "app/recording/run_lock.h"
 #include "app/recording/session.h"
@@ -37,7 +38,7 @@ record = {{ video = false {} }}
 [[swarm]]
 count = 200
 model = {{ type = "basic" }}
-start = {{ type = "point", at_px = [320, 240] }}
+start = {{ type = "disc", radius_px = 20 }}
 )",
                                                             name, more),
                                                 "test.toml"),
@@ -151,29 +152,28 @@ TEST_CASE("a thousand runs are listed in well under a second") {
   lab.simulate("run-0");
   for (int i = 1; i < 1000; ++i)
     fs::copy(lab.root / "runs/run-0", lab.root / fmt::format("runs/run-{}", i), fs::copy_options::recursive);
-  using Clock = std::chrono::steady_clock;
-  double longest = 0;
-  const auto began = Clock::now();
-  for (int calls = 1;; ++calls) {
-    const auto called = Clock::now();
-    const Json list = lab.runs.list();
-    longest = std::max(longest, std::chrono::duration<double>(Clock::now() - called).count());
+  // Processor time, because other processes use the machine as well.
+  const auto seconds_of_list = [&](Json& list) {
+    const std::clock_t began = std::clock();
+    list = lab.runs.list();
+    return double(std::clock() - began) / CLOCKS_PER_SEC;
+  };
+  Json list;
+  double longest = 0, total = 0;
+  int calls = 0;
+  bool measured = false;
+  for (; !measured; ++calls) {
+    REQUIRE(calls < 1000);
+    const double seconds = seconds_of_list(list);
+    longest = std::max(longest, seconds);
+    total += seconds;
     REQUIRE(list.size() == 1000);
-    const bool measured =
-        std::all_of(list.begin(), list.end(), [](const Json& run) { return run["measured"] == true; });
-    if (!measured) {
-      REQUIRE(calls < 1000);
-      continue;
-    }
-    MESSAGE(calls, " lists until all runs are measured, the longest of ", longest, " s, ",
-            std::chrono::duration<double>(Clock::now() - began).count(), " s in total");
-    break;
+    measured = std::all_of(list.begin(), list.end(), [](const Json& run) { return run["measured"] == true; });
   }
-  const auto again = Clock::now();
-  (void)lab.runs.list();
-  const double known = std::chrono::duration<double>(Clock::now() - again).count();
-  MESSAGE("then ", known, " s");
-  // Ten times the time on a machine with other work.
-  CHECK(longest < 3);
+  const double known = seconds_of_list(list);
+  MESSAGE(calls, " lists until all runs are measured, ", total, " s, the longest ", longest, " s; then ",
+          known, " s");
+  // Several times what a program without optimisation needs.
+  CHECK(longest < 2);
   CHECK(known < 0.5);
 }

@@ -70,7 +70,7 @@ TEST_CASE("track edits: cuts include their limits, and changes by hand have prec
   CHECK(fates(edited_tracks(measured(), e, 0.1, 1)) == std::vector{passes, passes, passes, cut});
   e.edits = {{TrackEditKind::remove, 1, 0, 0}, {TrackEditKind::keep, 5, 0, 0}};
   CHECK(fates(edited_tracks(measured(), e, 0.1, 1)) == std::vector{removed, passes, passes, kept});
-  // Straightness of a cell that stands still is not defined, and does not pass.
+  // Straightness of a cell that does not move is not defined, and does not pass.
   TrackEdits s;
   s.cuts = {{TrackFeature::straightness, 0.0, {}}};
   CHECK(edited_tracks(measured(), s, 0.1, 1).back().fate == cut);

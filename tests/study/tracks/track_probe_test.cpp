@@ -18,7 +18,7 @@ namespace {
 constexpr int kFrames = 70;  // more than the 50 that the background uses at most
 constexpr int kMoving = 25;
 
-// Moving cells, and some that stand still in half of the tests.
+// Moving cells, and some that do not move in half of the tests.
 std::filesystem::path film(const std::filesystem::path& folder, int still) {
   const std::filesystem::path out = folder / "film";
   std::filesystem::create_directories(out);
@@ -93,7 +93,8 @@ TEST_CASE("track probe: the detections of a frame are those of the tracking of t
         CAPTURE(i);
         const std::vector<Place> places = probed(probe, all[i], frame);
         CHECK(places == tracked(all[i], frame));
-        if (i == 0) CHECK(places.size() >= std::size_t(kMoving) * 8 / 10);
+        // Some cells have left the picture in the last frames.
+        if (i == 0) CHECK(places.size() >= std::size_t(kMoving) / 2);
       }
   }
 }

@@ -1,5 +1,4 @@
 export const en = {
-  'tab.video': 'Video',
   'video.title': 'Videos',
   'video.choose': 'Choose a video of the workspace.',
   'video.none': 'The workspace contains no videos.',
@@ -47,9 +46,10 @@ export const en = {
   'overlay.swarm': 'Swarm ellipse',
   'overlay.segments': 'Direction',
   'overlays.open': 'Open results …',
+  'overlays.flow': 'Flow to the next frame (5 times as long)',
+  'overlays.edge': 'Find drop edge',
   'overlays.help': 'Files of the program: tracks, swarm and activity as CSV, drop and activity as JSON.',
   'overlays.unknown': '{file} is not a file of tracks, swarm, activity or drop edge.',
-  'axis': 'Time axis',
   'axis.activity': 'Activity',
   'axis.help': 'Click or drag on the curve to go to a time. Drag on the strip below to mark a segment. The mouse wheel zooms the time axis.',
   'axis.all': 'Whole video',
@@ -82,7 +82,6 @@ export const en = {
 } as const;
 
 export const pt: Record<keyof typeof en, string> = {
-  'tab.video': 'Vídeo',
   'video.title': 'Vídeos',
   'video.choose': 'Escolha um vídeo da pasta de trabalho.',
   'video.none': 'A pasta de trabalho não contém vídeos.',
@@ -130,9 +129,10 @@ export const pt: Record<keyof typeof en, string> = {
   'overlay.swarm': 'Elipse do enxame',
   'overlay.segments': 'Direção',
   'overlays.open': 'Abrir resultados …',
+  'overlays.flow': 'Fluxo até o próximo quadro (5 vezes mais longo)',
+  'overlays.edge': 'Encontrar borda da gota',
   'overlays.help': 'Arquivos do programa: trajetórias, enxame e atividade em CSV, gota e atividade em JSON.',
   'overlays.unknown': '{file} não é um arquivo de trajetórias, enxame, atividade ou borda da gota.',
-  'axis': 'Eixo do tempo',
   'axis.activity': 'Atividade',
   'axis.help': 'Clique ou arraste na curva para ir a um tempo. Arraste na faixa abaixo para marcar um segmento. A roda do mouse amplia o eixo do tempo.',
   'axis.all': 'Vídeo inteiro',

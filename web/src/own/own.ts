@@ -141,10 +141,20 @@ export function ownScenario(schema: Schema | null, own: Own, file: string): Reco
   return {
     title: own.detection.picture.replace(/^.*\//, '').replace(/\.\w{1,5}$/, ''),
     scale: scaleOf(schema, own),
-    ...(sectionOf(schema, 'microscope')?.properties?.background ? { microscope: { background: file } } : {}),
+    ...pictureOf(schema, file),
     arena,
     swarm: [{ count: own.count, ...modelOf(schema, own), ...startOf(schema, own) }],
     ...actionOf(schema, own),
+  };
+}
+
+// The camera sees the cells on the picture: with as_seen the scenario keeps its microscope, and recordings show both (Fig. 3.22 of the thesis).
+function pictureOf(schema: Schema | null, file: string): Record<string, any> {
+  const has = (section: string, key: string) => Object.hasOwn(sectionOf(schema, section)?.properties ?? {}, key);
+  return {
+    ...(has('camera', 'rate') ? { camera: { rate: '60 Hz' } } : {}),
+    ...(has('microscope', 'background') ? { microscope: { background: file } } : {}),
+    ...(has('record', 'as_seen') ? { record: { as_seen: true } } : {}),
   };
 }
 
@@ -192,14 +202,21 @@ function startOf(schema: Schema | null, own: Own): { start?: Record<string, any>
 }
 const sizeOf = (own: Own) => Math.min(own.edge === 'box' ? Infinity : (own.circle?.r ?? Infinity), ...(own.detection?.image_size ?? [0, 0]).map((v) => v / 2));
 
+// Values of a controller with which the cells of the presets gather at the setpoint, in drops of any size: the duty cycle sets their mean
+// speed, and a turn takes longer than a frame (as scenes/steer.toml).
+const kSteering: Record<string, unknown> = { actuation: 'duty', max_output: 40, hold_frames: 1, lead: '100 ms' };
+
 /** A controller that steers to the middle, or a manual field of zero. */
 function actionOf(schema: Schema | null, own: Own): Record<string, any> {
   const controllers = sectionOf(schema, 'controller'), hand = handController(schema);
   if (own.action === 'pull' && hand !== undefined) return { controller: { type: hand, field: [0, 0] } };
   const hold = setpointReference(schema), standard = defaultPart(controllers);
-  const steers = standard !== undefined && hasTrait(controllers, standard, 'feedback') ? standard : findPart(controllers, { trait: 'feedback' });
+  const feedback = hasTrait(controllers, undefined, 'feedback') ? standard : findPart(controllers, { trait: 'feedback' });
+  const steers = findPart(controllers, { trait: 'feedback', property: 'actuation' }) ?? feedback;
+  const properties = (controllers && steers !== undefined && variant(controllers, steers)?.properties) || {};
+  const values = Object.fromEntries(Object.entries(kSteering).filter(([key]) => Object.hasOwn(properties, key)));
   return {
-    ...(steers === undefined ? {} : { controller: { type: steers } }),
+    ...(steers === undefined ? {} : { controller: { type: steers, ...values } }),
     ...(hold === undefined ? {} : { reference: { type: hold, setpoint_px: middle(own) } }),
   };
 }

@@ -22,7 +22,7 @@ export interface Layer {
   y: number[];
   lo: number[];
   hi: number[];
-  /** Numbers of a layer that is no list of points: a level, a range, an outline. */
+  /** Numbers of a layer without a list of points: a level, a range, an outline. */
   at: number[];
   /** Number of points that were measured, if only some of them are drawn; otherwise 0. */
   of: number;

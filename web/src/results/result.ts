@@ -24,6 +24,12 @@ export function jobOf(jobs: Job[], page: string, id: string | undefined): Job | 
 /** The command of a job for a shell, without the options of its output for programs. */
 export const commandOf = (words: string[]) => ['faba', ...words.filter((w) => w !== '--json')].map(quoted).join(' ');
 
+/** The files before the options of a command, without "./". */
+export function filesOf(words: string[]): string[] {
+  const end = words.findIndex((w) => w.startsWith('--'));
+  return words.slice(1, end < 0 ? undefined : end).map((w) => w.replace(/^\.\//, ''));
+}
+
 /** "runs/study" of "runs/study/report.html". */
 export const folderOf = (page: string) => page.slice(0, Math.max(0, page.lastIndexOf('/')));
 export const nameOf = (file: string) => file.slice(file.lastIndexOf('/') + 1);

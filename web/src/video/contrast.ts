@@ -6,7 +6,8 @@ export interface Histogram {
   /** Quantiles of 0.1 % and 99.9 %. */
   low: number;
   high: number;
-  /** In equal steps from `least` to `most`. */
+  /** In equal intervals from `least`, `step` wide. */
+  step: number;
   counts: number[];
 }
 export interface Contrast {
@@ -33,8 +34,8 @@ export function limited(c: Contrast, moved: 'low' | 'high', step: number): Contr
 }
 /** Outline of the histogram as an SVG path; heights are square roots, so that few pixels are visible too. */
 export function histogramPath(h: Histogram, range: Contrast, width: number, height: number): string {
-  const most = Math.sqrt(Math.max(1, ...h.counts)), step = (h.most - h.least) / h.counts.length;
+  const most = Math.sqrt(Math.max(1, ...h.counts));
   const x = (grey: number) => (((grey - range.low) / (range.high - range.low || 1)) * width).toFixed(1);
   const y = (n: number) => (height * (1 - Math.sqrt(n) / most)).toFixed(1);
-  return `M${x(h.least)} ${height}${h.counts.map((n, k) => `V${y(n)}H${x(h.least + (k + 1) * step)}`).join('')}V${height}Z`;
+  return `M${x(h.least)} ${height}${h.counts.map((n, k) => `V${y(n)}H${x(h.least + (k + 1) * h.step)}`).join('')}V${height}Z`;
 }

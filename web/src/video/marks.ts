@@ -34,7 +34,7 @@ export function ordered(segments: Segment[]): Segment[] {
   const out: Segment[] = [];
   for (const s of [...segments].sort((a, b) => a.from_s - b.from_s)) {
     const from = Math.max(s.from_s, out.at(-1)?.to_s ?? 0);
-    if (s.to_s - from >= kShortest) out.push({ ...s, from_s: from });
+    if (s.to_s - from >= kShortest) out.push(from === s.from_s ? s : { ...s, from_s: from });
   }
   return out;
 }

@@ -2,6 +2,7 @@
 
 import { get, RequestError } from '../connection';
 import type { Contrast, Histogram } from './contrast';
+import type { FlowField } from './overlays';
 
 export interface VideoAbout {
   width: number;
@@ -59,6 +60,10 @@ export const thumbnailUrl = (file: string) => `/api/videos/thumbnail.png?${query
 export const fetchAbout = (file: string) => get<VideoAbout>(`/api/videos/about?${query({ file })}`);
 export const fetchEnd = (file: string) => get<VideoEnd>(`/api/videos/end?${query({ file })}`);
 export const fetchHistogram = (file: string, t: number) => get<Histogram>(`/api/videos/histogram?${query({ file, t })}`);
+
+export const fetchFlow = (file: string, t: number) => get<FlowField>(`/api/videos/flow?${query({ file, t })}`);
+/** The drop in a frame; `found` is false without an edge. */
+export const fetchEdge = (file: string, t: number) => get<{ found: boolean; reason?: string; center_px: [number, number]; radius_px: number }>(`/api/videos/edge?${query({ file, t })}`);
 
 export async function fetchPictures(file: string, from: number, count: number, look: Look, signal?: AbortSignal): Promise<Picture[]> {
   const r = await fetch(`/api/videos/frames?${query({ file, from, count, ...look })}`, { signal }).catch((e) => {

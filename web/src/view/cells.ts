@@ -1,7 +1,8 @@
 // Draws cells as dots: with WebGL2, or pixel by pixel if WebGL is rendered in software.
 
-import { type Frame, responds } from '../frame';
+import { type Frame, responds, type Sites } from '../frame';
 import type { Box, Camera } from './camera';
+import { drawSites } from './sites';
 import { densityColours, kSteps, squareOf, type Density } from './density';
 
 export type Rgb = [number, number, number];
@@ -21,6 +22,8 @@ export interface CellView {
   /** `ends`: index of the first cell after each swarm. */
   draw(f: Frame, ends: number[], box: Box, camera: Camera, style: Style): void;
   readonly name: string;
+  /** Whether it draws occupancy grids. */
+  readonly drawsSites: boolean;
   /** The canvas that is drawn to. */
   readonly canvas: HTMLCanvasElement;
   /** Clears the trails. */
@@ -64,6 +67,7 @@ const kTrail = 0.82; // decay factor of trails per frame
 
 class PixelCells implements CellView {
   readonly name = 'pixels';
+  readonly drawsSites = true;
   private image: ImageData | null = null;
   private px = new Uint32Array(0);
   private stale = true;
@@ -88,7 +92,8 @@ class PixelCells implements CellView {
     if (style.trails && !this.stale) this.fade(style.ground);
     else px.fill(ground);
     this.stale = false;
-    this.dots(f, ends, box, camera, style);
+    if (f.sites) this.sites(f.sites, box, camera, style);
+    else this.dots(f, ends, box, camera, style);
     this.g.putImageData(this.image, 0, 0);
   }
 
@@ -102,6 +107,13 @@ class PixelCells implements CellView {
       const b = (((v >>> 8) & 0xff) * keep + g * rest) >>> 8;
       px[i] = (0xff000000 | a | (b << 8)) >>> 0;
     }
+  }
+
+  private sites(s: Sites, box: Box, camera: Camera, style: Style) {
+    const { width, height } = this.image!, size = Math.round(2 * Math.max(1, style.radius * camera.scale));
+    const colours = s.planes.map((_, p) => word(p % 2 ? style.mute : style.colours[(p >> 1) % style.colours.length]));
+    const density = style.density ? { density: style.density, tints: densityColours(style.dark ?? false).map(word) } : null;
+    drawSites({ px: this.px, width, height }, s, box, camera, { colours, size, density });
   }
 
   private dots(f: Frame, ends: number[], box: Box, camera: Camera, style: Style) {
@@ -123,7 +135,7 @@ class PixelCells implements CellView {
         }
         let at = (y - half) * w + x - half;
         if (size === 2) {
-          px[at] = px[at + 1] = px[at + w] = px[at + w + 1] = c; // the usual size in large swarms, without a loop
+          px[at] = px[at + 1] = px[at + w] = px[at + w + 1] = c; // the typical size in large swarms, without a loop
           continue;
         }
         for (let b = 0; b < size; ++b, at += w) for (let a = 0; a < size; ++a) px[at + a] = c;
@@ -180,6 +192,7 @@ void main() { o = colour; }`;
 
 class WebglCells implements CellView {
   readonly name = 'webgl';
+  readonly drawsSites = false;
   private dots: WebGLProgram;
   private cover: WebGLProgram;
   private positionBuffer: WebGLBuffer;

@@ -1,12 +1,12 @@
 // Number density of the cells on a grid over the arena, and its colour scale.
 
-import type { Frame } from '../frame';
+import type { Frame, Sites } from '../frame';
 import type { Box } from './camera';
 import type { Rgb } from './cells';
 
 /** Swarms with more cells show their density unless the user switches it off: single cells overlap. */
 export const kLargeSwarm = 20000;
-const kSquares = 64; // along the longer side
+const kSquares = 64; // along the longer side, as in the occupancy grid of the program
 const kWithin = 0.98; // fraction of the occupied squares that are within the colour scale; cells pile up at walls
 const kNice = [1, 1.5, 2, 3, 4, 5, 6, 8, 10];
 
@@ -31,16 +31,20 @@ export function niceCeiling(v: number): number {
 }
 
 /** `unit`: side of the unit of area in image px, such as 1 mm. */
-export function densityOf(f: Pick<Frame, 'xy' | 'cells'>, box: Box, unit: number): Density {
+export function densityOf(f: Pick<Frame, 'xy' | 'cells'> & { sites?: Sites | null }, box: Box, unit: number): Density {
   const width = box.right - box.left, height = box.bottom - box.top, side = Math.max(width, height) / kSquares;
-  const columns = Math.ceil(width / side - 1e-9), rows = Math.ceil(height / side - 1e-9), counts = new Uint32Array(columns * rows);
-  const square = squareOf(f, box, { columns, rows, side });
-  for (let i = 0; i < f.cells; ++i) ++counts[square(i)];
+  const { columns, rows, cells: counts } = f.sites?.counts ?? countsOf(f, box, Math.ceil(width / side - 1e-9), Math.ceil(height / side - 1e-9), side);
   const occupied = counts.filter((n) => n > 0).sort(), high = occupied.length ? occupied[Math.floor(kWithin * (occupied.length - 1))] : 0;
   const perUnit = (unit / side) ** 2, most = niceCeiling(high * perUnit);
   const shades = new Uint8Array(counts.length);
   for (let k = 0; k < counts.length; ++k) shades[k] = Math.min(kSteps - 1, Math.floor((counts[k] * perUnit * kSteps) / most));
   return { columns, rows, side, counts, shades, most };
+}
+
+function countsOf(f: Pick<Frame, 'xy' | 'cells'>, box: Box, columns: number, rows: number, side: number): Sites['counts'] {
+  const cells = new Uint32Array(columns * rows), square = squareOf(f, box, { columns, rows, side });
+  for (let i = 0; i < f.cells; ++i) ++cells[square(i)];
+  return { columns, rows, cells };
 }
 
 /** The square of a cell. */

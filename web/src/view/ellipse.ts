@@ -1,6 +1,6 @@
 // The ellipse of one standard deviation of a swarm, from its covariance.
 
-import type { Frame } from '../frame';
+import type { Frame, Sites } from '../frame';
 
 const kMostCells = 20000; // of a larger swarm a part is enough: the error of the correlation is below 0.01
 
@@ -12,19 +12,34 @@ export interface Ellipse {
 }
 
 /** Correlation coefficient of x and y of the cells; 0 for fewer than two cells, or without dispersion. */
-export function correlation({ xy, cells }: Pick<Frame, 'xy' | 'cells'>): number {
-  const step = Math.max(1, Math.ceil(cells / kMostCells));
+export function correlation({ xy, cells, sites }: Pick<Frame, 'xy' | 'cells'> & { sites?: Sites | null }): number {
+  if (sites) return correlationOfCounts(sites.counts);
+  const sums = moments(), step = Math.max(1, Math.ceil(cells / kMostCells));
+  for (let i = 0; i < cells; i += step) sums.add(xy[2 * i], xy[2 * i + 1], 1);
+  return sums.correlation();
+}
+
+function correlationOfCounts({ columns, rows, cells }: Sites['counts']): number {
+  const sums = moments();
+  for (let r = 0; r < rows; ++r) for (let c = 0; c < columns; ++c) if (cells[r * columns + c]) sums.add(c, r, cells[r * columns + c]);
+  return sums.correlation();
+}
+
+// Weighted sums of squares about the mean (West, 1979).
+function moments() {
   let n = 0, mx = 0, my = 0, xx = 0, yy = 0, both = 0;
-  for (let i = 0; i < cells; i += step) {
-    const x = xy[2 * i], y = xy[2 * i + 1], dx = x - mx, dy = y - my;
-    ++n;
-    mx += dx / n;
-    my += dy / n;
-    xx += dx * (x - mx);
-    yy += dy * (y - my);
-    both += dx * (y - my);
-  }
-  return xx > 0 && yy > 0 ? both / Math.sqrt(xx * yy) : 0;
+  return {
+    add(x: number, y: number, weight: number) {
+      const dx = x - mx, dy = y - my;
+      n += weight;
+      mx += (weight * dx) / n;
+      my += (weight * dy) / n;
+      xx += weight * dx * (x - mx);
+      yy += weight * dy * (y - my);
+      both += weight * dx * (y - my);
+    },
+    correlation: () => (xx > 0 && yy > 0 ? both / Math.sqrt(xx * yy) : 0),
+  };
 }
 
 /** The ellipse of the covariance matrix with these standard deviations and this correlation. */

@@ -19,7 +19,7 @@ namespace faba {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double kMostFrames = 1e15;
+constexpr double kLargestNumber = 1e15;
 
 std::vector<std::string> feature_words() {
   std::vector<std::string> words;
@@ -45,15 +45,15 @@ Schema<TrackCut> cut_schema() {
 Schema<TrackEdit> edit_schema() {
   return Schema<TrackEdit>("edit", "A change by hand")
       .add("action", &TrackEdit::kind, {.doc = "What is done with the track", .choices = kEditWords})
-      .add("track", &TrackEdit::track, {.min = 1, .max = kMostFrames, .doc = "Number of the track"})
+      .add("track", &TrackEdit::track, {.min = 1, .max = kLargestNumber, .doc = "Number of the track"})
       .add("frame", &TrackEdit::frame,
-           {.min = 0, .max = kMostFrames, .doc = "split: first frame of the new track"})
+           {.min = 0, .max = kLargestNumber, .doc = "split: first frame of the new track"})
       .add("with", &TrackEdit::with,
-           {.min = 0, .max = kMostFrames, .doc = "join: number of the track that is added"});
+           {.min = 0, .max = kLargestNumber, .doc = "join: number of the track that is added"});
 }
 
 template <class T>
-std::vector<T> list_of(const Node& root, const char* key, const Schema<T>& schema) {
+std::vector<T> tables_of(const Node& root, const char* key, const Schema<T>& schema) {
   std::vector<T> all;
   if (!root.has(key)) return all;
   const Node list = root.child(key);
@@ -69,7 +69,7 @@ std::vector<Track> tracks_of(const Table& t) {
   std::vector<Track> tracks;
   std::unordered_map<std::uint64_t, std::size_t> index_of;
   for (std::size_t i = 0; i < t.size(); ++i) {
-    if (!(number[i] >= 1 && number[i] < kMostFrames) || !(frame[i] >= 0 && frame[i] < kMostFrames))
+    if (!(number[i] >= 1 && number[i] < kLargestNumber) || !(frame[i] >= 0 && frame[i] < kLargestNumber))
       throw Error(Errc::input, t.location(i), "track and frame must be positive numbers");
     const auto [at, is_new] = index_of.emplace(std::uint64_t(number[i]), tracks.size());
     if (is_new) tracks.push_back({std::uint64_t(number[i]), {}, false});
@@ -140,7 +140,7 @@ TrackEdits read_track_edits(const Document& d, const TrackFolder& tracks) {
     root.child("sha256").fail(
         "the edits were made for other tracks; apply them to the result that they belong to, or edit the new "
         "tracks");
-  TrackEdits e{list_of(root, "cut", cut_schema()), list_of(root, "edit", edit_schema())};
+  TrackEdits e{tables_of(root, "cut", cut_schema()), tables_of(root, "edit", edit_schema())};
   for (std::size_t i = 0; i < e.cuts.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)
       if (e.cuts[k].feature == e.cuts[i].feature)

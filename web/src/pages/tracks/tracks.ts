@@ -13,8 +13,9 @@ export interface Settings {
   memory?: number;
   least?: number;
   'um-per-px'?: number;
+  fps?: number;
 }
-const kNumberKeys = ['size', 'threshold', 'reach', 'memory', 'least', 'um-per-px'] as const;
+const kNumberKeys = ['size', 'threshold', 'reach', 'memory', 'least', 'um-per-px', 'fps'] as const;
 const kWordKeys = ['polarity', 'background', 'motion'] as const;
 
 /** The settings in the values of an address. */
@@ -215,7 +216,7 @@ export function speedOf(p: Points, track: number, interval: number): { t: number
   return out;
 }
 
-/** Three significant digits, without an exponent for usual values. */
+/** Three significant digits, without an exponent for typical values. */
 export function short(v: number | null | undefined): string {
   if (v === null || v === undefined || !Number.isFinite(v)) return '–';
   return Math.abs(v) >= 1e5 || (v !== 0 && Math.abs(v) < 1e-3) ? v.toExponential(2) : String(Number(v.toPrecision(3)));
@@ -245,7 +246,7 @@ export class Newest {
   }
 }
 
-/** Detection or linking; `survey` is told the progress while the program reads the sampled frames of the video. */
+/** Detection or linking; `survey` receives the progress while the program reads the sampled frames of the video. */
 export async function probe<T>(what: 'detect' | 'link', asked: Record<string, unknown>, survey: (done: number, of: number) => void, stop: () => boolean): Promise<T | null> {
   for (;;) {
     const a = await post<any>(`/api/tracks/${what}`, asked);
