@@ -91,6 +91,17 @@ bool is_table_list(const Json& j) {
   return true;
 }
 
+// A key that is not bare, such as "swarm[0].count", is in quotes.
+std::string written_key(const std::string& key) {
+  const auto bare = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  };
+  if (!key.empty() && std::all_of(key.begin(), key.end(), bare)) return key;
+  std::string quoted;
+  for (const char c : Json(key).dump()) c == '\x7f' ? quoted += "\\u007f" : quoted += c;
+  return quoted;
+}
+
 void emit_value(const Json& j, std::string& out) {
   if (j.is_array()) {
     out += '[';
@@ -104,7 +115,7 @@ void emit_value(const Json& j, std::string& out) {
     bool first = true;
     for (const auto& [k, v] : j.items()) {
       if (v.is_null()) continue;
-      out += fmt::format("{}{} = ", first ? "" : ", ", k);
+      out += fmt::format("{}{} = ", first ? "" : ", ", written_key(k));
       emit_value(v, out);
       first = false;
     }
@@ -118,12 +129,12 @@ void emit_value(const Json& j, std::string& out) {
 void emit_table(const Json& table, const std::string& path, std::string& out) {
   for (const auto& [k, v] : table.items())
     if (!v.is_null() && !v.is_object() && !is_table_list(v)) {
-      out += k + " = ";
+      out += written_key(k) + " = ";
       emit_value(v, out);
       out += '\n';
     }
   for (const auto& [k, v] : table.items()) {
-    const std::string here = joined(path, k);
+    const std::string here = joined(path, written_key(k));
     if (v.is_object()) {
       out += fmt::format("\n[{}]\n", here);
       emit_table(v, here, out);

@@ -78,3 +78,10 @@ TEST_CASE("a value that is set replaces the lines of its own subtree only") {
   CHECK(d.origin.at("ab[0].y") == "t.toml:7");
   CHECK(Node(d).child("ab").item(0).where("y") == "t.toml:7: ab[0].y");
 }
+
+TEST_CASE("keys that are not bare are written in quotes and read again") {
+  const Json j = {{"set", {{"swarm[0].count", 20}, {"a \"b\"\n[c]", 1}, {"", 2}}},
+                  {"x.y", {{"bare-key_1", true}}}};
+  CHECK(parse_toml(to_toml(j), "t").root == j);
+  CHECK(to_toml({{"bare-key_1", 1}}) == "bare-key_1 = 1\n");
+}

@@ -31,6 +31,11 @@ const start = async (button = 'Start') => {
 };
 const done = () => page.locator('.state.done').first().waitFor({ timeout: kJobPatience });
 const picture = () => until(() => page.evaluate(() => document.querySelector('.page section img:not([alt=""])')?.naturalWidth > 0), 'the picture of the result is shown');
+/** Opens the report of the job whose page is shown. */
+const report = async () => {
+  await page.locator('section').getByRole('link', { name: 'Show result' }).click();
+  await page.locator('section svg').first().waitFor();
+};
 const refused = async (button, text) => {
   await main(button).click();
   await page.locator('.wrong, [role=alert]').filter({ hasText: text }).first().waitFor();
@@ -90,16 +95,8 @@ await step('activity: missing values are reported, the time is estimated, and a 
   await done();
   // Up in the picture is 270 degrees for the command.
   await page.locator('code', { hasText: '--direction=270' }).waitFor();
-  assert.ok((await page.frameLocator('iframe').locator('svg').count()) > 0, 'the report has plots');
+  await report();
   await shot('activity-result');
-});
-
-await step('the report has the theme of the lab', async () => {
-  const ground = () => page.frameLocator('iframe').locator('body').evaluate((b) => getComputedStyle(b).backgroundColor);
-  await until(async () => (await ground()) === 'rgb(255, 255, 255)', 'the report is light');
-  await page.getByLabel('Light or dark theme').click();
-  await until(async () => (await ground()) === 'rgb(23, 27, 31)', 'the report is dark');
-  await page.getByLabel('Light or dark theme').click();
 });
 
 await step('the estimate of a second job is measured, and the values of one form do not appear in another', async () => {
@@ -116,8 +113,8 @@ await step('compare: reference and videos are chosen separately', async () => {
   await pick(/^Videos/, 'videos/two');
   await start();
   await done();
-  await page.locator('iframe').waitFor();
   await page.getByRole('link', { name: 'distances.csv' }).waitFor();
+  await report();
 });
 
 await step('names that look like options or contain quotes are files', async () => {
@@ -255,7 +252,7 @@ await step('an experiment: activity against exposure', async () => {
   await pick(/^Experiment/, 'experiments/e1');
   await start();
   await done();
-  await page.locator('iframe').waitFor();
+  await report();
 });
 
 await step('identify: a study is composed from the schema, and the terminal can run it', async () => {
@@ -267,13 +264,13 @@ await step('identify: a study is composed from the schema, and the terminal can 
   await page.getByLabel('reversal', { exact: true }).fill('0.2 s');
   await page.getByRole('group', { name: 'Add a model' }).getByRole('button', { name: 'dipole' }).click();
   await page.getByLabel('Add a free parameter').selectOption('swarm[0].count');
-  await page.getByRole('group', { name: 'dipole' }).getByLabel('lowest').nth(1).fill('10');
-  await page.getByRole('group', { name: 'dipole' }).getByLabel('highest').nth(1).fill('1000');
+  await page.getByRole('group', { name: 'dipole' }).getByLabel('lowest', { exact: true }).last().fill('10');
+  await page.getByRole('group', { name: 'dipole' }).getByLabel('highest', { exact: true }).last().fill('1000');
   await page.getByLabel('Name of the study').fill('Small study');
-  await page.getByLabel('look').selectOption('positions');
+  await page.getByLabel('look', { exact: true }).selectOption('positions');
   await page.getByLabel('simulations', { exact: true }).fill('100');
   await page.locator('fieldset', { hasText: 'Settings' }).last().getByText('More options').click();
-  await page.getByLabel('nuisances').uncheck();
+  await page.getByLabel('nuisances', { exact: true }).uncheck();
   await main('Check').click();
   await page.locator('[data-read=estimate]').waitFor();
   assert.ok(!existsSync(file('studies/Small-study.toml')), 'the check saved a file');
@@ -281,7 +278,7 @@ await step('identify: a study is composed from the schema, and the terminal can 
   await start('Save and start');
   await page.locator('.state.done, .state.failed').first().waitFor({ timeout: kJobPatience * 3 });
   assert.equal(await page.locator('.state.failed').count(), 0, await page.locator('section').textContent());
-  await page.locator('iframe').waitFor();
+  await report();
   const toml = readFileSync(file('studies/Small-study.toml'), 'utf8');
   assert.match(toml, /file = "\.\.\/runs\/seen"/);
   assert.match(toml, /direction = "0 deg"/);
@@ -300,8 +297,8 @@ await step('compare controllers: a wrong value is refused at its place; a small 
   await page.getByLabel('seeds', { exact: true }).fill('2');
   await start('Save and start');
   await done();
-  await page.locator('iframe').waitFor();
   await page.locator('code', { hasText: 'studies/two-controllers.toml' }).waitFor();
+  await report();
 });
 
 await step('parameter sweep: one parameter of a scene', async () => {
@@ -309,15 +306,16 @@ await step('parameter sweep: one parameter of a scene', async () => {
   await page.getByLabel('Scene').selectOption('thesis-basic');
   const first = page.getByRole('group', { name: 'Parameter 1' });
   await first.getByLabel('Parameter', { exact: true }).selectOption('swarm[0].count');
-  await first.getByLabel('lowest').fill('10');
-  await first.getByLabel('highest').fill('30');
-  await first.getByLabel('Number of values').fill('3');
+  await first.getByLabel('lowest', { exact: true }).fill('10');
+  await first.getByLabel('highest', { exact: true }).fill('30');
+  await first.getByLabel('Number of values', { exact: true }).fill('3');
   await page.getByText('3 combinations').waitFor();
   await page.getByLabel('seeds', { exact: true }).fill('2');
   await shot('sweep-form');
   await start('Save and start');
   await done();
-  await page.frameLocator('iframe').getByText('count 30').first().waitFor();
+  await report();
+  await page.locator('section').getByText('count 30').first().waitFor();
 });
 
 await step('the queue: order, times, cancel, and the list after a reload', async () => {
@@ -356,8 +354,9 @@ await step('ended jobs are listed by the next lab, with their results; a list ca
   await tab('Jobs');
   const sweep = page.locator('li', { hasText: 'sweep.toml' });
   await sweep.getByRole('link', { name: 'Open' }).click();
-  await page.frameLocator('iframe').getByText('count 30').first().waitFor();
-  await page.goBack();
+  await report();
+  await page.locator('section').getByText('count 30').first().waitFor();
+  await tab('Jobs');
   await page.getByRole('button', { name: 'Clear finished jobs' }).click();
   await page.getByText('No jobs.').waitFor();
   complaints.length = 0;
