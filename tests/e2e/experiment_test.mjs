@@ -165,6 +165,9 @@ await step('two pages change one experiment', async () => {
 
 await step('activity against air exposure', async () => {
   await page.getByRole('button', { name: 'Activity against air exposure' }).click();
+  await page.locator('[data-read="estimate"]').waitFor();
+  await page.reload();
+  await page.getByRole('button', { name: 'Start' }).click();
   await page.reload();
   await page.getByText('done').first().waitFor({ timeout: kJobPatience });
   const jobs = await page.evaluate(() => fetch('/api/jobs').then((r) => r.json()));

@@ -50,7 +50,8 @@ export const en = {
   'experiments.mine': 'Save my values',
   'experiments.theirs': 'Keep the present values',
   'experiments.measure': 'Measurements',
-  'experiments.activity': 'Activity against air exposure',
+  'experiments.results': 'Results',
+  'experiments.tracks': 'Tracks page',
 } as const;
 
 export const pt: Record<keyof typeof en, string> = {
@@ -105,5 +106,6 @@ export const pt: Record<keyof typeof en, string> = {
   'experiments.mine': 'Salvar os meus valores',
   'experiments.theirs': 'Manter os valores atuais',
   'experiments.measure': 'Medições',
-  'experiments.activity': 'Atividade em função da exposição ao ar',
+  'experiments.results': 'Resultados',
+  'experiments.tracks': 'Página de trajetórias',
 };

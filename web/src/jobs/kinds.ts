@@ -55,6 +55,8 @@ export function jobKinds(): Promise<KindInfo[]> {
   return kinds;
 }
 export const inputFiles = () => get<InputFile[]>('/api/inputs');
+/** Videos of the workspace, newest first. */
+export const videoFiles = async () => (await inputFiles()).filter((f) => f.kind === 'video').map((f) => f.file);
 export const pictureOf = (file: string) => `/api/inputs/picture.png?file=${encodeURIComponent(file)}`;
 export const factsOf = (file: string) => get<Facts>(`/api/inputs/facts?file=${encodeURIComponent(file)}`);
 export const hasPicture = (kind: FileKind | 'frame') => kind === 'video' || kind === 'picture' || kind === 'frame';
