@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <string>
 
 #include "core/toml.h"
@@ -8,6 +9,13 @@ namespace faba {
 
 /// The JSON object in the body of a request. Throws Error(usage).
 Json body_of(const WebRequest& r);
+
+/// A value of the query; empty if it is not given.
+std::string query_text(const WebRequest& r, const char* key);
+/// A finite number, or an integer from 0, of the query; `fallback` if it is not given. Throw Error(usage)
+/// with the key.
+double query_number(const WebRequest& r, const char* key, double fallback);
+std::uint64_t query_count(const WebRequest& r, const char* key, std::uint64_t fallback);
 
 /// A text that is not empty. Throws Error(usage) with the key.
 std::string text_of(const Json& asked, const char* key);

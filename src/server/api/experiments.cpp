@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "core/error.h"
 #include "server/api/lab_services.h"
@@ -12,26 +11,12 @@
 namespace faba {
 namespace {
 
-std::string text(const WebRequest& r, const char* key) {
-  const auto it = r.query.find(key);
-  return it == r.query.end() ? "" : it->second;
-}
-
-std::uint64_t number(const WebRequest& r, const char* key) {
-  const std::string value = text(r, key);
-  std::uint64_t n = 0;
-  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), n);
-  if (error != std::errc() || end != value.data() + value.size())
-    throw Error(Errc::usage, key, fmt::format("\"{}\" must be an integer from 0", value));
-  return n;
-}
-
 ImportPart part_of(const WebRequest& r) {
-  return {.name = text(r, "name"),
-          .size = number(r, "size"),
-          .offset = number(r, "offset"),
-          .modified_s = r.query.contains("modified") ? std::int64_t(number(r, "modified")) : 0,
-          .drop = text(r, "drop")};
+  return {.name = query_text(r, "name"),
+          .size = query_count(r, "size", 0),
+          .offset = query_count(r, "offset", 0),
+          .modified_s = std::int64_t(query_count(r, "modified", 0)),
+          .drop = query_text(r, "drop")};
 }
 
 // Adds a video of the workspace or of an allowed folder where it is.
@@ -69,7 +54,7 @@ void add_experiment_routes(Routes& routes, const LabServices& lab) {
     return json_answer(lab.imports.take(names[0], part_of(r), r.body));
   });
   routes.add("DELETE", "/api/experiments/*/imports", [&lab](const auto& r, const auto& names) {
-    lab.imports.cancel(names[0], text(r, "name"), number(r, "size"));
+    lab.imports.cancel(names[0], query_text(r, "name"), query_count(r, "size", 0));
     return json_answer(Json::object());
   });
 }

@@ -18,11 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::uint64_t number(const WebRequest& r, const char* key, std::uint64_t fallback) {
-  const auto it = r.query.find(key);
-  return it == r.query.end() ? fallback : std::strtoull(it->second.c_str(), nullptr, 10);
-}
-
 Json scenario_of(const LabServices& lab, const std::string& name, const fs::path& dir) {
   return {{"file", "runs/" + name + "/scenario.toml"},
           {"scenario", read_scenario(read_toml(dir / run_files::kScenario), lab.parts).resolved()}};
@@ -73,8 +68,9 @@ void add_run_routes(Routes& routes, const LabServices& lab) {
     return json_answer(scenario_of(lab, names[0], dir(names[0])));
   });
   routes.add("GET", "/api/runs/*/frames", [dir](const auto& r, const auto& names) {
-    return WebResponse{.type = "application/octet-stream",
-                       .body = run_frames(dir(names[0]), number(r, "from", 0), number(r, "count", 1))};
+    return WebResponse{
+        .type = "application/octet-stream",
+        .body = run_frames(dir(names[0]), query_count(r, "from", 0), query_count(r, "count", 1))};
   });
   routes.add("GET", "/api/runs/*/picture.png",
              [&lab, dir](const auto&, const auto& names) { return picture(lab, names[0], dir(names[0])); });

@@ -30,12 +30,6 @@ std::int64_t integer_of(const Json& asked, const char* key, std::int64_t least, 
   return it->get<std::int64_t>();
 }
 
-std::string query_of(const WebRequest& r, const char* key) {
-  const auto it = r.query.find(key);
-  if (it == r.query.end() || it->second.empty()) throw Error(Errc::usage, key, "missing");
-  return it->second;
-}
-
 constexpr std::int64_t kLastFrame = 1'000'000'000, kMostLinked = 50;
 
 // Answers {"ready": false, "done", "of"} until the video is surveyed.
@@ -77,7 +71,7 @@ WebResponse result_file(TrackServices& t, const WebRequest& r, const std::string
   for (const char* known : {"tracks.csv", "per_track.csv", "tracks.html", "track.json", "edits.toml",
                             "edited_tracks.csv", "edited_features.csv"})
     if (name == known) {
-      WebResponse answer = file_answer(t.lab.workspace.existing(query_of(r, "folder") + "/" + name));
+      WebResponse answer = file_answer(t.lab.workspace.existing(query_text(r, "folder") + "/" + name));
       answer.report = name == "tracks.html";
       return answer;
     }
@@ -95,13 +89,15 @@ void add_track_routes(Routes& routes, const LabServices& lab) {
              [t](const auto& r, const auto&) { return json_answer(probe(*t, body_of(r), false)); });
   routes.add("POST", "/api/tracks/link",
              [t](const auto& r, const auto&) { return json_answer(probe(*t, body_of(r), true)); });
-  routes.add("GET", "/api/tracks/result",
-             [t](const auto& r, const auto&) { return json_answer(t->results.read(query_of(r, "folder"))); });
+  routes.add("GET", "/api/tracks/result", [t](const auto& r, const auto&) {
+    return json_answer(t->results.read(query_text(r, "folder")));
+  });
   routes.add("GET", "/api/tracks/points", [t](const auto& r, const auto&) {
-    return WebResponse{.type = "application/octet-stream", .body = t->results.points(query_of(r, "folder"))};
+    return WebResponse{.type = "application/octet-stream",
+                       .body = t->results.points(query_text(r, "folder"))};
   });
   routes.add("GET", "/api/tracks/edited", [t](const auto& r, const auto&) {
-    return json_answer(t->results.edited(query_of(r, "folder")));
+    return json_answer(t->results.edited(query_text(r, "folder")));
   });
   routes.add("POST", "/api/tracks/edits", [t](const auto& r, const auto&) {
     const Json asked = body_of(r);

@@ -7,6 +7,7 @@
 #include "core/file.h"
 #include "server/api/lab_services.h"
 #include "server/api/responses.h"
+#include "server/request_values.h"
 #include "server/videos/open_videos.h"
 #include "study/data/frame_flow.h"
 #include "study/drop/proposed_drop.h"
@@ -17,29 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kThumbnailWidth = 320, kMostWidth = 16384;   // px
-constexpr std::uint64_t kMostFrames = 64;                  // in one response
-constexpr std::size_t kMostBatch = std::size_t{24} << 20;  // bytes
-
-const std::string& text(const WebRequest& r, const char* key) {
-  static const std::string kNone;
-  const auto it = r.query.find(key);
-  return it == r.query.end() ? kNone : it->second;
-}
-
-// A finite number of the query.
-double number(const WebRequest& r, const char* key, double fallback) {
-  const std::string& given = text(r, key);
-  if (given.empty()) return fallback;
-  char* end = nullptr;
-  const double value = std::strtod(given.c_str(), &end);
-  if (*end != 0 || !std::isfinite(value))
-    throw Error(Errc::usage, key, fmt::format("\"{}\" is not a number; it must be a finite number", given));
-  return value;
-}
+constexpr int kThumbnailWidth = 320, kMostWidth = 16384;  // px
+constexpr std::uint64_t kMostFrames = 64;                 // in one response
+constexpr std::size_t kMostBatch = std::size_t{24} << 20;
 
 int width_of(const WebRequest& r) {
-  const double width = number(r, "width", 0);
+  const double width = query_number(r, "width", 0);
   if (width < 0 || width > kMostWidth)
     throw Error(Errc::usage, "width",
                 fmt::format("{} px is out of range; it must be between 0 and {} px", width, kMostWidth));
@@ -49,7 +33,7 @@ int width_of(const WebRequest& r) {
 // Calls `use` with the video that the page names; errors name it as the page does.
 void with_video(OpenVideos& videos, const LabServices& lab, const WebRequest& r,
                 const std::function<void(VideoFrames&)>& use) {
-  const std::string& name = text(r, "file");
+  const std::string name = query_text(r, "file");
   if (name.empty())
     throw Error(Errc::usage, "file", "is missing; it must be the name of a video of the workspace");
   const fs::path path = lab.workspace.existing(name);
@@ -62,8 +46,8 @@ void with_video(OpenVideos& videos, const LabServices& lab, const WebRequest& r,
 }
 
 double time_of(const WebRequest& r, const VideoFrames& video) {
-  if (text(r, "index").empty()) return number(r, "t", 0);
-  return number(r, "index", 0) / (video.fps() > 0 ? video.fps() : 1);
+  if (query_text(r, "index").empty()) return query_number(r, "t", 0);
+  return query_number(r, "index", 0) / (video.fps() > 0 ? video.fps() : 1);
 }
 
 // The full grey scale of 8 bits; of more bits, cameras often use a small part.
@@ -75,9 +59,9 @@ FrameLook default_look(const VideoFrames& video, const VideoFrame& frame) {
 
 FrameLook look_of(const WebRequest& r, const VideoFrames& video, const VideoFrame& frame) {
   FrameLook look;
-  if (text(r, "low").empty() || text(r, "high").empty()) look = default_look(video, frame);
-  look.low = number(r, "low", look.low);
-  look.high = number(r, "high", look.high);
+  if (query_text(r, "low").empty() || query_text(r, "high").empty()) look = default_look(video, frame);
+  look.low = query_number(r, "low", look.low);
+  look.high = query_number(r, "high", look.high);
   look.width = width_of(r);
   return look;
 }
@@ -139,8 +123,8 @@ void append_frame(std::string& out, const VideoFrame& frame, const FrameLook& lo
 }
 
 std::string batch(const WebRequest& r, VideoFrames& video) {
-  const double count = number(r, "count", 1);
-  VideoFrameRef frame = video.at(number(r, "from", 0));
+  const double count = query_number(r, "count", 1);
+  VideoFrameRef frame = video.at(query_number(r, "from", 0));
   const FrameLook look = look_of(r, video, *frame);
   std::string out;
   for (std::uint64_t k = 0; frame && double(k) < count && k < kMostFrames && out.size() < kMostBatch; ++k) {
@@ -152,7 +136,7 @@ std::string batch(const WebRequest& r, VideoFrames& video) {
 
 WebResponse thumbnail(const LabServices& lab, const WebRequest& r) {
   OpenVideos alone;  // must not close the videos that pages display
-  const fs::path path = lab.workspace.existing(text(r, "file"));
+  const fs::path path = lab.workspace.existing(query_text(r, "file"));
   const auto changed = fs::last_write_time(path).time_since_epoch().count();
   const fs::path file =
       lab.pictures / fmt::format("video-{:x}-{}.png", std::hash<std::string>{}(path.string()), changed);
@@ -194,7 +178,9 @@ void add_video_routes(Routes& routes, const LabServices& lab) {
   });
   routes.add("GET", "/api/videos/edge", [with](const auto& r, const auto&) {
     Json j;
-    with(r, [&](VideoFrames& v) { j = drop_json(propose_drop(v.at(time_of(r, v))->grey, text(r, "file"))); });
+    with(r, [&](VideoFrames& v) {
+      j = drop_json(propose_drop(v.at(time_of(r, v))->grey, query_text(r, "file")));
+    });
     return json_answer(j);
   });
   routes.add("GET", "/api/videos/frame", [with](const auto& r, const auto&) {
