@@ -8,7 +8,7 @@ import assert from 'node:assert/strict';
 import { mkdtempSync, readFileSync, statSync, utimesSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { address, browser, context, elsewhere, faba, kJobPatience, lab, page, step, tab, until, workspace } from './lab_page.mjs';
+import { address, browser, complaints, context, elsewhere, faba, kJobPatience, lab, page, step, tab, until, workspace } from './lab_page.mjs';
 
 const kExposures = [60, 180, 300, 420]; // s
 const user = mkdtempSync(join(tmpdir(), 'faba-user-'));
@@ -38,7 +38,7 @@ type = "box"
 size_px = [320, 240]
 [[swarm]]
 count = 60
-model = { type = "adapted", speed = "${speed} um/s" }
+model = { type = "dipole", speed = "${speed} um/s" }
 [microscope]
 cell_diameter = "2.5 um"
 [controller]
@@ -99,6 +99,7 @@ await step('a text file is refused with its name', async () => {
   await page.locator('.dropzone input').setInputFiles(join(user, 'notes.txt'));
   await page.locator('.upload').getByText('notes.txt').waitFor();
   await page.locator('.upload .wrong').waitFor();
+  assert.match(complaints.splice(0).join(), /422/);
   await page.locator('.upload').getByRole('button', { name: 'Remove' }).click();
   assert.equal(await page.locator('tbody tr').count(), 8);
 });

@@ -118,29 +118,31 @@ TEST_CASE("S6: allowed folders can be read, and nothing beside them") {
   CHECK_THROWS_AS(w.inside((data / "new.toml").string()), const Error&);
   CHECK_THROWS_WITH_AS(Workspace(root, {}, {folder.path() / "missing"}), doctest::Contains("is not a folder"),
                        const Error&);
-  TEST_CASE("S6: pictures are kept in the workspace, and never replace a file") {
-    test::TemporaryFolder folder("workspace");
-    const fs::path root = folder.path() / "work";
-    fs::create_directories(root / "scenes");
-    write_file(folder.path() / "upload", "picture");
-    const Workspace w(root, {});
-    const auto keep = [&](const char* name) { return w.keep_picture(folder.path() / "upload", name); };
-    CHECK(keep("a drop.tif") == "pictures/a drop.tif");
-    CHECK(read_file(root / "pictures/a drop.tif") == "picture");
-    CHECK(keep("a drop.tif") == "pictures/a drop-2.tif");
-    CHECK(keep("../../out.tif") == "pictures/out.tif");
-    for (const char* bad : {"..", ".", "", "/", ".hidden.png"}) CHECK_THROWS_AS(keep(bad), const Error&);
-    CHECK_FALSE(fs::exists(folder.path() / "out.tif"));
-    write_file(root / "b.png", "");
-    CHECK(w.pictures() == std::vector<std::string>{"b.png", "pictures/a drop-2.tif", "pictures/a drop.tif",
-                                                   "pictures/out.tif"});
-    CHECK(w.scenario_file("pictures/out.tif") == fs::canonical(root) / "pictures/out.tif");
-    CHECK_THROWS_AS((void)w.scenario_file("../upload"), const Error&);
-    // A link in place of the folder or of a picture does not lead out of the workspace.
-    fs::create_symlink(folder.path() / "target.png", root / "pictures/link.png");
-    CHECK(keep("link.png") == "pictures/link-2.png");
-    CHECK_FALSE(fs::exists(folder.path() / "target.png"));
-    fs::remove_all(root / "pictures");
-    fs::create_directory_symlink(folder.path(), root / "pictures");
-    CHECK_THROWS_AS(keep("c.png"), const Error&);
-  }
+}
+
+TEST_CASE("S6: pictures are kept in the workspace, and never replace a file") {
+  test::TemporaryFolder folder("workspace");
+  const fs::path root = folder.path() / "work";
+  fs::create_directories(root / "scenes");
+  write_file(folder.path() / "upload", "picture");
+  const Workspace w(root, {});
+  const auto keep = [&](const char* name) { return w.keep_picture(folder.path() / "upload", name); };
+  CHECK(keep("a drop.tif") == "pictures/a drop.tif");
+  CHECK(read_file(root / "pictures/a drop.tif") == "picture");
+  CHECK(keep("a drop.tif") == "pictures/a drop-2.tif");
+  CHECK(keep("../../out.tif") == "pictures/out.tif");
+  for (const char* bad : {"..", ".", "", "/", ".hidden.png"}) CHECK_THROWS_AS(keep(bad), const Error&);
+  CHECK_FALSE(fs::exists(folder.path() / "out.tif"));
+  write_file(root / "b.png", "");
+  CHECK(w.pictures() == std::vector<std::string>{"b.png", "pictures/a drop-2.tif", "pictures/a drop.tif",
+                                                 "pictures/out.tif"});
+  CHECK(w.scenario_file("pictures/out.tif") == fs::canonical(root) / "pictures/out.tif");
+  CHECK_THROWS_AS((void)w.scenario_file("../upload"), const Error&);
+  // A link in place of the folder or of a picture does not lead out of the workspace.
+  fs::create_symlink(folder.path() / "target.png", root / "pictures/link.png");
+  CHECK(keep("link.png") == "pictures/link-2.png");
+  CHECK_FALSE(fs::exists(folder.path() / "target.png"));
+  fs::remove_all(root / "pictures");
+  fs::create_directory_symlink(folder.path(), root / "pictures");
+  CHECK_THROWS_AS(keep("c.png"), const Error&);
+}

@@ -47,8 +47,10 @@ void add_experiment_routes(Routes& routes, const LabServices& lab) {
   routes.add("POST", "/api/experiments/*/videos", [&lab](const auto& r, const auto& names) {
     return json_answer(pick(lab, names[0], body_of(r)));
   });
-  routes.add("GET", "/api/experiments/*/imports", [&lab](const auto&, const auto& names) {
-    return json_answer(lab.imports.incomplete(names[0]));
+  routes.add("GET", "/api/experiments/*/imports", [&lab](const auto& r, const auto& names) {
+    if (!r.query.contains("name")) return json_answer(lab.imports.incomplete(names[0]));
+    return json_answer(
+        {{"received", lab.imports.received(names[0], query_text(r, "name"), query_count(r, "size", 0))}});
   });
   routes.add("POST", "/api/experiments/*/imports", [&lab](const auto& r, const auto& names) {
     return json_answer(lab.imports.take(names[0], part_of(r), r.body));

@@ -133,8 +133,7 @@ Json Imports::take(const std::string& experiment, const ImportPart& part, const 
 
 void Imports::cancel(const std::string& experiment, const std::string& name, std::uint64_t size) {
   const std::lock_guard lock(mutex_);
-  const fs::path file = experiments_.folder(experiment) / kVideoFolder / part_name(safe_name(name), size);
-  if (!fs::remove(file)) throw Error(Errc::input, name.substr(0, 80), "no such upload");
+  fs::remove(experiments_.folder(experiment) / kVideoFolder / part_name(safe_name(name), size));
 }
 
 }  // namespace faba

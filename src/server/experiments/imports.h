@@ -13,7 +13,7 @@ struct ImportPart {
   std::uint64_t size = 0;       ///< of the whole file, bytes
   std::uint64_t offset = 0;     ///< of this part, bytes
   std::int64_t modified_s = 0;  ///< time of the file, Unix time; 0: unknown
-  std::string drop;             ///< to which the video belongs; may be empty
+  std::string drop = {};             ///< to which the video belongs; may be empty
 };
 
 /// Uploads of videos into experiments. A file comes in parts, so that an upload continues after a reload of
@@ -31,7 +31,7 @@ class Imports {
   /// bytes received so far (the message has it), and when the complete file is neither a video nor a picture;
   /// it is then removed.
   Json take(const std::string& experiment, const ImportPart& part, const std::string& bytes);
-  /// Removes an incomplete upload.
+  /// Removes an incomplete upload; nothing happens if there is none.
   void cancel(const std::string& experiment, const std::string& name, std::uint64_t size);
 
  private:

@@ -61,7 +61,7 @@ TEST_CASE("a part that does not follow the bytes received is refused") {
   CHECK_THROWS_AS(lab.take("a.pgm", 5, std::string(100, 'x')), const Error&);  // longer than stated
   lab.imports.cancel("x", "a.pgm", kPicture.size());
   CHECK(fs::is_empty(lab.videos));
-  CHECK_THROWS_AS(lab.imports.cancel("x", "a.pgm", kPicture.size()), const Error&);
+  CHECK_NOTHROW(lab.imports.cancel("x", "a.pgm", kPicture.size()));
 }
 
 TEST_CASE("a file without frames is refused and removed") {
