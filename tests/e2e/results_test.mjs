@@ -13,7 +13,7 @@ run('run', 'scenes/short-response.toml', '--seed', '3', '--out', 'runs/short-res
 writeFileSync(join(workspace, 'studies/small.toml'), `title = "A small study"
 boundary = "drop"
 field_strength = "115 uT"
-simulations = 24
+simulations = 100
 look = "positions"
 [scene]
 exclusion = { order = "none" }
@@ -206,7 +206,10 @@ await step('the report of a comparison has figures', async () => {
 async function openBest(button) {
   await page.getByRole('button', { name: button }).click();
   await page.waitForFunction(() => location.hash === '#/lab');
-  await until(async () => Number((await page.locator('[data-read="time"]').textContent()).match(/[\d.]+/)?.[0]) > 0, 'the run advances');
+  const ticks = () => page.evaluate(() => document.querySelector('canvas.over')?.lab?.ticks ?? 0);
+  await until(async () => (await ticks()) > 0, 'the run has frames');
+  const before = await ticks();
+  await until(async () => (await ticks()) > before + 3, 'the run advances');
 }
 await step('the best controller opens in the lab', async () => {
   const done = await job('compare-controllers', { study: 'studies/two.toml' });
@@ -216,8 +219,8 @@ await step('the best controller opens in the lab', async () => {
   assert.ok(await page.getByRole('link', { name: 'controllers.csv' }).isVisible());
   await openBest('Open the best controller in the lab');
   const type = combination.controller === 'proportional' ? 'proportional' : 'fuzzy';
-  await page.getByRole('tab', { name: 'Scenario' }).click();
-  await until(async () => (await page.locator('aside').innerText()).includes(type) || (await page.locator('aside select').evaluateAll((all, t) => all.some((s) => s.value === t), type)), `the controller is ${type}`);
+  assert.equal(await page.evaluate(() => document.querySelector('canvas.over').lab.scenario.controller.type), type);
+  assert.equal(await page.locator('[data-read="title"]').textContent(), `Two controllers: ${combination.controller}`);
 });
 
 await step('the best model opens in the lab, and is compared with the video', async () => {
@@ -225,6 +228,7 @@ await step('the best model opens in the lab, and is compared with the video', as
   await shot('result-identify');
   const result = await page.evaluate(() => location.hash);
   await openBest('Open the best model in the lab');
+  assert.match(await page.locator('[data-read="title"]').textContent(), /dipole, identified from/);
   await page.evaluate((h) => (location.hash = h), result);
   await page.getByRole('button', { name: 'Compare the best model with the video' }).click();
   await page.locator('.report .plot').first().waitFor({ timeout: kJobPatience });
