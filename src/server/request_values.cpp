@@ -1,5 +1,10 @@
 #include "server/request_values.h"
 
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 
 #include "core/error.h"
