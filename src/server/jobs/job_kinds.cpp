@@ -208,6 +208,7 @@ std::vector<JobKind> study_kinds() {
            .outputs = {{"--out", ""}},
            .page = "identify.html",
            .work = JobWork::simulations,
+           .study = JobStudy::identification,
            .fixed_s = 5,
            .s_per_work = 0.02},
           {.name = "compare-controllers",
@@ -218,6 +219,7 @@ std::vector<JobKind> study_kinds() {
            .outputs = {{"--out", ""}},
            .page = "report.html",
            .work = JobWork::cell_frames,
+           .study = JobStudy::controllers,
            .fixed_s = 1,
            .s_per_work = 0.15}};
 }
