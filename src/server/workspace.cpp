@@ -127,9 +127,6 @@ void Workspace::check_files(const Json& scenario) const {
 }
 
 fs::path Workspace::scenario_file(const std::string& name) const {
-  const auto lies_below = [](const fs::path& folder, const fs::path& file) {
-    return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
-  };
   const fs::path project = gallery_.parent_path();  // scenes refer to ../rigs
   // Search order of a scenario: its folder, then the working directory.
   std::error_code ec;
@@ -161,6 +158,9 @@ std::vector<std::string> Workspace::pictures() const {
 
 std::string Workspace::keep_picture(const fs::path& file, const std::string& name) const {
   const fs::path wanted = fs::path(name).filename();
+  if (wanted.empty() || wanted.string().starts_with('.'))
+    throw Error(Errc::usage, "name",
+                fmt::format("\"{}\" is not the name of a visible file", name.substr(0, 80)));
   const fs::path folder = inside(fmt::format("{}/{}", kPictureFolder, wanted.string())).parent_path();
   fs::create_directories(folder);
   for (int i = 1;; ++i) {

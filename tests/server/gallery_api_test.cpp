@@ -14,8 +14,7 @@ TEST_CASE(
   const std::string bytes = lab.own() + "Content-Type: application/octet-stream\r\n";
   const std::string json = lab.own() + "Content-Type: application/json\r\n";
   const auto error = [](const std::string& answer) { return Json::parse(test::body_of(answer)); };
-  for (const char* content :
-       {"these are notes", "", "P5\n4 4\n255\n0123456789abcdef", "P5\n640 480\n255\nshort"}) {
+  for (const char* content : {"these are notes", "", "P5\n640 480\n255\nshort"}) {
     const std::string a = lab.ask("POST /api/upload?name=..%2fmy%20notes.pgm", bytes, content);
     INFO(a);
     CHECK(status_of(a) == 422);

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstring>
 
@@ -89,6 +90,12 @@ Json about(VideoFrames& video) {
           {"damage", video.damage()}};
 }
 
+// Time of a file, s since 1970.
+std::int64_t modified_s(const fs::path& file) {
+  const auto time = fs::file_time_type::clock::to_sys(fs::last_write_time(file));
+  return std::chrono::duration_cast<std::chrono::seconds>(time.time_since_epoch()).count();
+}
+
 // Looks for the last frame, which may take a while without an index in the file.
 Json end_of(VideoFrames& video) {
   const VideoFrameRef last = video.last();
@@ -156,9 +163,10 @@ void add_video_routes(Routes& routes, const LabServices& lab) {
   const auto with = [&lab, videos](const WebRequest& r, const std::function<void(VideoFrames&)>& use) {
     with_video(*videos, lab, r, use);
   };
-  routes.add("GET", "/api/videos/about", [with](const auto& r, const auto&) {
+  routes.add("GET", "/api/videos/about", [&lab, with](const auto& r, const auto&) {
     Json j;
     with(r, [&](VideoFrames& v) { j = about(v); });
+    j["modified_s"] = modified_s(lab.workspace.existing(query_text(r, "file")));
     return json_answer(j);
   });
   routes.add("GET", "/api/videos/end", [with](const auto& r, const auto&) {

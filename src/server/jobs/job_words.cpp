@@ -60,9 +60,10 @@ double number_of(const JobInput& i, const Json& value) {
   } else {
     refuse(i, fmt::format("{} is not a number; {}", shown(value), permitted(i)));
   }
+  if (!std::isfinite(v)) refuse(i, fmt::format("\"{}\" is not a number; {}", shown(value), permitted(i)));
   // A conversion of units has rounding errors: "0.3 mm" is 300 um.
   const double slack = 1e-9 * std::max(std::abs(i.min), 1e-3);
-  if (!std::isfinite(v) || v < i.min - slack || v > i.max * (1 + 1e-9))
+  if (v < i.min - slack || v > i.max * (1 + 1e-9))
     refuse(i, fmt::format("{} is out of range; {}", shown(value), permitted(i)));
   if (i.kind == In::integer && v != std::floor(v))
     refuse(i, fmt::format("{} is not an integer; {}", shown(value), permitted(i)));

@@ -116,7 +116,8 @@ bool EngineRun::operator()(const Round& round, ResultStore& store) {
   }
   engine_->cancel();
   for (const auto& [_, r] : s.running) {
-    log_.add(r.attempt.results.stem().string(), "complete", "", "all results of the round were read");
+    log_.add(r.attempt.results.stem().string(), "complete", "",
+             joined("all results of the round were read", message_in(r.attempt.log)));
     remove_if_empty(r.attempt.log);
   }
   if (!s.failed.empty()) throw failed_tasks(round, s.failed, s.planned.first, kMostAttempts);

@@ -1,20 +1,14 @@
 // What the files of videos state, read once for each file.
 
 import { get, RequestError } from '../../connection';
+import type { VideoAbout } from '../../video/pictures';
 
-export interface VideoFacts {
-  width: number;
-  height: number;
-  rate_hz: number | null;
-  length_s: number | null;
-  frames: number | null;
-  /** Unix time of the file, s. */
+export type VideoFacts = Pick<VideoAbout, 'width' | 'height' | 'fps' | 'length_s' | 'um_per_px'> & {
+  /** Time of the file, s since 1970. */
   modified_s: number;
-  bytes: number;
-  um_per_px: number | null;
   /** Why the file cannot be read. */
   trouble?: string;
-}
+};
 
 export class Facts {
   all = $state<Record<string, VideoFacts>>({});
@@ -26,7 +20,7 @@ export class Facts {
     try {
       this.all[file] = await get<VideoFacts>(`/api/videos/about?file=${encodeURIComponent(file)}`);
     } catch (e) {
-      const none = { width: 0, height: 0, rate_hz: null, length_s: null, frames: null, modified_s: 0, bytes: 0, um_per_px: null };
+      const none = { width: 0, height: 0, fps: 0, length_s: 0, um_per_px: null, modified_s: 0 };
       this.all[file] = { ...none, trouble: e instanceof RequestError ? e.what : String(e) };
     }
   }
