@@ -55,7 +55,7 @@ OTHER_MEANINGS = (
     ("none", "no evidence", "src/study/identify/evidence.cpp src/study/pages/calibration/calibration_json.cpp"),
     ("none", "a value of boundary", "src/study/identify/identify_study.cpp"),
     ("none", "an option of FFmpeg",
-     "src/vision/files/av_stream.cpp src/vision/files/frame_encoder.cpp src/vision/files/remux.cpp"),
+     "src/vision/files/av_decoder.cpp src/vision/files/frame_encoder.cpp src/vision/files/remux.cpp"),
     ("none", "a text or a style of the page",
      "web/src/parts/export.ts web/src/parts/ReportFigure.svelte web/src/i18n/analyse.ts web/src/own/PictureView.svelte "
      "web/src/pages/runs/RunTable.svelte web/src/pages/tracks/HistogramCut.svelte web/src/results/plot_export.ts "
