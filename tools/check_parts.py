@@ -31,39 +31,54 @@ CHOSEN = {
 # Other meanings of the names of parts: (name, meaning, files).
 OTHER_MEANINGS = (
     ("box", "the frame of the arena in JSON", "src/server/live_lab.cpp src/server/recorded_run.cpp web/src/steering.svelte.ts"),
+    ("box", "the frame of the picture instead of an edge", "web/src/own/own.ts web/src/own/EdgeStep.svelte web/src/own/StartStep.svelte"),
+    ("box", "a shape in a figure", "src/study/plot/plot_layer_data.cpp web/src/results/plot_drawing.ts"),
     ("box", "a value of boundary", "src/study/identify/identify_study.cpp"),
     ("drop", "a value of boundary", "src/study/identify/identify_study.cpp"),
-    ("drop", "the verb", "src/cli/verbs/drop.cpp"),
-    ("edge", "a layer of the picture", "web/src/App.svelte"),
+    ("drop", "the verb, or its option in `faba track`",
+     "src/cli/verbs/drop.cpp src/server/jobs/job_kinds.cpp src/server/tracks/track_request.cpp"),
+    ("drop", "a drop of an experiment",
+     "src/server/api/experiments.cpp src/server/experiments/experiment_changes.cpp src/server/experiments/experiment_store.cpp "
+     "web/src/pages/experiments/ExperimentPage.svelte web/src/pages/experiments/VideoRow.svelte"),
+    ("drop", "the name of a file", "web/src/own/StartStep.svelte"),
+    ("edge", "a layer of the picture", "web/src/workbench/Stage.svelte web/src/video/overlays.ts web/src/video/VideoViewer.svelte"),
+    ("edge", "the edge of the drop: a step, a key, a place of cells", "web/src/own/own.ts web/src/own/EdgeStep.svelte web/src/own/CellsStep.svelte"),
     ("hold", "a parameter", "src/sim/agents/adapted.cpp src/sim/agents/basic.cpp"),
-    ("map", "the verb", "src/cli/verbs/field/map.cpp src/server/api.cpp"),
+    ("map", "the verb", "src/cli/verbs/field/map.cpp src/server/jobs/job_kinds.cpp"),
     ("mean", "the average, as a JSON key, a parameter or a heading",
      "src/app/bench/bench_view.cpp src/cli/verbs/compare.cpp src/study/identify/free_parameter.cpp "
      "src/study/pages/compare_report.cpp src/study/pages/controller_report.cpp src/study/pages/identify_report.cpp "
-     "src/study/pages/tracks/track_json.cpp src/study/pages/calibration/calibration_json.cpp"),
+     "src/study/pages/tracks/track_json.cpp src/study/pages/calibration/calibration_json.cpp web/src/i18n/analyse.ts"),
     ("none", "no defect", "src/rig/setup/amplifier.cpp"),
     ("none", "no fault of the guard", "src/rig/setup/coil_guard.cpp"),
     ("none", "no exclusion", "src/sim/exclusion.cpp"),
     ("none", "no evidence", "src/study/identify/evidence.cpp src/study/pages/calibration/calibration_json.cpp"),
     ("none", "a value of boundary", "src/study/identify/identify_study.cpp"),
     ("none", "an option of FFmpeg",
-     "src/vision/files/av_stream.cpp src/vision/files/frame_encoder.cpp src/vision/files/remux.cpp"),
-    ("none", "a text or a style of the page", "web/src/parts/export.ts"),
+     "src/vision/files/av_decoder.cpp src/vision/files/frame_encoder.cpp src/vision/files/remux.cpp"),
+    ("none", "a text or a style of the page",
+     "web/src/parts/export.ts web/src/parts/ReportFigure.svelte web/src/i18n/analyse.ts web/src/own/PictureView.svelte "
+     "web/src/pages/runs/RunTable.svelte web/src/pages/tracks/HistogramCut.svelte web/src/results/plot_export.ts "
+     "web/src/video/ContrastPanel.svelte"),
+    ("none", "no notifications", "web/src/pages/JobsPage.svelte"),
+    ("none", "no recording that can be shown", "web/src/pages/runs/ReplayPage.svelte"),
     ("rig", "the section [rig]",
      "src/app/bench/bench_controls.cpp src/app/bench/simulated_bench.cpp src/app/bench/step_response.cpp "
-     "src/app/recording/manifest.cpp src/app/scenario/scenario.h src/rig/bench/bench_rig.cpp"),
+     "src/app/recording/manifest.cpp src/app/scenario/scenario.h src/rig/bench/bench_rig.cpp src/server/runs/run_card.cpp"),
     ("rig", "the verb", "src/app/bench/bench_process.cpp src/cli/verbs/rig/rig.cpp"),
     ("rig", "the file of a coil system, as an argument or a key",
      "src/app/files/library_file.cpp src/cli/options/field.cpp src/cli/verbs/field/fit.cpp src/cli/verbs/schema.cpp "
-     "src/server/api.cpp src/study/coils/field_library.cpp web/src/pages/Analyse.svelte"),
-    ("route", "a label or a layer of a picture", "src/study/pages/run_figures.cpp web/src/App.svelte"),
+     "src/server/jobs/job_kinds.cpp src/server/jobs/job_estimate.cpp src/study/coils/field_library.cpp"),
+    ("route", "a label or a layer of a picture", "src/study/pages/run_figures.cpp web/src/workbench/Stage.svelte"),
     ("simulated", "the word of a trait", "src/core/traits.h"),
+    ("thesis", "a section of the gallery", "src/server/gallery_index.cpp web/src/gallery.ts"),
     ("visible", "a label, a parameter or a style",
-     "src/sim/starts/edge.cpp src/study/pages/run_figures.cpp web/src/view/Microscope.svelte"),
+     "src/sim/starts/edge.cpp src/study/pages/run_figures.cpp web/src/view/Microscope.svelte web/src/own/own.ts"),
 )
-# Comparison of a string with p.type, p.name() or j["type"], in either order. Types of JSON Schema are not parts.
+# Comparison of a string with p.type, p.name() or j["type"], in either order. The empty string and the types of JSON Schema,
+# of input elements and of events in the browser are not parts.
 WHAT = r'(?:\.(?:type|name)(?:\(\))?|\["(?:type|name)"\])'
-KIND = "(?:number|integer|string|boolean|array|object|const)"
+KIND = "(?:|number|integer|string|boolean|array|object|const|checkbox|range|pointerup)"
 COMPARED = re.compile(rf'{WHAT} *[!=]==? *["\'](?!{KIND}["\'])|["\'] *[!=]==? *[\w.\[\]>-]*{WHAT}')
 LIST = "src/app/parts.cpp"
 SOURCES = ("src/**/*.cpp", "src/**/*.h", "web/src/**/*.ts", "web/src/**/*.svelte")

@@ -30,7 +30,7 @@ OUTPUTS = ("identify.json", "identify.html", "best.toml", "background.png", "cal
 VERB = {"identify": "identify", "calibration": "calibrate", "controllers": "compare-controllers"}
 VIDEOS = ("film/video.avi", "film-2/video.avi", "film-3/video.avi")
 TRACK = ("track", *VIDEOS, "--um-per-px", "1.2", "--out", "tracks.csv", "--report", "tracks.html", "--quiet")
-TIME_LIMIT = 2400  # s, of the whole test: eight times its duration with --kills on two cores
+TIME_LIMIT = 2400  # s, of the complete test: eight times its duration with --kills on two cores
 ACTIVITY = ("activity", *VIDEOS, "--reversal", "0.6 s")
 
 

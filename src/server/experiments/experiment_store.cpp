@@ -48,7 +48,7 @@ std::string safe_name(const std::string& text) {
   }
   name.erase(0, name.find_first_not_of(".-"));
   while (name.size() > kLongestName) {
-    // A whole character of UTF-8.
+    // A complete character of UTF-8.
     while (!name.empty() && (static_cast<unsigned char>(name.back()) & 0xC0) == 0x80) name.pop_back();
     if (!name.empty()) name.pop_back();
   }

@@ -22,8 +22,8 @@ class ExperimentStore {
   Json list() const;
   /// Creates an experiment. Returns its name: the title as a folder name, with a number if it is used.
   std::string create(const std::string& title);
-  /// {"name", "revision", "experiment"}. Throws Error(input) if there is none, Error(usage) for an invalid
-  /// file.
+  /// {"name", "revision", "experiment"}. Throws Error(input) if the experiment is not found, Error(usage) for
+  /// an invalid file.
   Json read(const std::string& name) const;
   /// Applies the `changes` of a request. The answer of read(), or {"conflicts": [{"path", "now"}]} with it if
   /// a change was refused. Throws Error(usage) if the changed experiment would be invalid.

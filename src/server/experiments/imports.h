@@ -10,10 +10,10 @@ namespace faba {
 /// A part of a file that a page uploads into an experiment.
 struct ImportPart {
   std::string name;             ///< of the file at the user's computer
-  std::uint64_t size = 0;       ///< of the whole file, bytes
+  std::uint64_t size = 0;       ///< of the complete file, bytes
   std::uint64_t offset = 0;     ///< of this part, bytes
   std::int64_t modified_s = 0;  ///< time of the file, Unix time; 0: unknown
-  std::string drop = {};             ///< to which the video belongs; may be empty
+  std::string drop = {};        ///< to which the video belongs; may be empty
 };
 
 /// Uploads of videos into experiments. A file comes in parts, so that an upload continues after a reload of
@@ -31,7 +31,7 @@ class Imports {
   /// bytes received so far (the message has it), and when the complete file is neither a video nor a picture;
   /// it is then removed.
   Json take(const std::string& experiment, const ImportPart& part, const std::string& bytes);
-  /// Removes an incomplete upload; nothing happens if there is none.
+  /// Removes an incomplete upload; nothing happens if it is not found.
   void cancel(const std::string& experiment, const std::string& name, std::uint64_t size);
 
  private:

@@ -95,7 +95,7 @@ void prepare(Json& study, const fs::path& folder, const Workspace& w) {
 
 // Reads the study as the verb does, including the combinations of controllers and models.
 void check(const JobKind& kind, const fs::path& file) {
-  if (kind.name == "identify") {
+  if (kind.study == JobStudy::identification) {
     (void)read_identify_study(file);
   } else {
     const ControllerStudy study = read_controller_study(file);
@@ -129,7 +129,7 @@ fs::path free_name(const fs::path& folder, const std::string& name, const std::s
 }  // namespace
 
 ComposedStudy compose_study(const JobKind& kind, const Json& asked, const Workspace& w) {
-  if (kind.name != "identify" && kind.name != "compare-controllers")
+  if (kind.study == JobStudy::none)
     throw Error(Errc::usage, "kind",
                 fmt::format("{} has no study; it must be identify or compare-controllers", kind.name));
   const std::string name = safe_name(asked.value("name", ""));

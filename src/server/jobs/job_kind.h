@@ -55,6 +55,9 @@ enum class JobWork {
   sets          ///< sets of currents
 };
 
+/// The study files of a verb that a page can compose; see compose_study().
+enum class JobStudy { none, identification, controllers };
+
 /// A kind of job: one command of the program, with everything that a page needs to offer it.
 struct JobKind {
   std::string name;               ///< "field-map": in addresses
@@ -65,6 +68,7 @@ struct JobKind {
   std::vector<JobOutput> outputs = {};
   std::string page = {};  ///< file that shows the result; empty: the values that the command prints
   JobWork work = JobWork::fixed;
+  JobStudy study = JobStudy::none;
   /// Initial estimate, until jobs of this kind are complete: a constant part, and one in proportion to the
   /// work. Measured on a machine with two cores, see job_kinds.cpp.
   double fixed_s = 1, s_per_work = 0;

@@ -33,15 +33,15 @@ class Dipole final : public AgentModel {
     double drag_factor = 1;
     double viscosity = 0.89e-3;
     double temperature = 298.15;
-    std::optional<double> rotational_diffusion;
-    std::optional<double> translational_diffusion;
+    std::optional<double> rotational_diffusion = {};
+    std::optional<double> translational_diffusion = {};
     double speed = 186e-6;
     double speed_sd = 45e-6;
     double speed_max = 320e-6;
     double motile = 1;
     double reversal_rate = 0;
     double tumble_rate = 0;
-    std::optional<double> tumble_sd;
+    std::optional<double> tumble_sd = {};
   };
   static Schema<Params> schema();
   Dipole(const Params& p, const ModelContext& c);
@@ -51,12 +51,6 @@ class Dipole final : public AgentModel {
   void step(State& s, const StepContext& c) const override;
   double longest_step(double b_max) const override;
   WeakestField weakest_field(double time) const override;
-
-  /// f_r, N m s.
-  static double rotational_drag(const Params& p);
-  /// D_r in 1/s and D_t in m^2/s, including overrides.
-  static double rotational_diffusion(const Params& p);
-  static double translational_diffusion(const Params& p);
 
  private:
   void reorient(State& s, const StepContext& c) const;
@@ -218,24 +212,20 @@ void describe_swimming(DipoleSchema& s) {
 }
 
 void add_strains(DipoleSchema& s) {
-  DipoleParams msr1;
-  msr1.moment = 2.0e-16;
-  msr1.moment_spread = 0.3;
-  msr1.radius = 1.5e-6;
-  msr1.drag_factor = 3.6;
-  msr1.speed = 45e-6;
-  msr1.speed_sd = 8e-6;
-  msr1.speed_max = 80e-6;
-  DipoleParams mc1;
-  mc1.moment = 2e-15;
-  mc1.moment_spread = 0.3;
-  mc1.radius = 0.75e-6;
-  mc1.speed = 300e-6;
-  mc1.speed_sd = 70e-6;
-  mc1.speed_max = 550e-6;
-  DipoleParams it1;
-  it1.moment_spread = 0.3;
-  s.preset("IT-1", it1,
+  const DipoleParams msr1{.moment = 2.0e-16,
+                          .moment_spread = 0.3,
+                          .radius = 1.5e-6,
+                          .drag_factor = 3.6,
+                          .speed = 45e-6,
+                          .speed_sd = 8e-6,
+                          .speed_max = 80e-6};
+  const DipoleParams mc1{.moment = 2e-15,
+                         .moment_spread = 0.3,
+                         .radius = 0.75e-6,
+                         .speed = 300e-6,
+                         .speed_sd = 70e-6,
+                         .speed_max = 550e-6};
+  s.preset("IT-1", {.moment_spread = 0.3},
            "Magnetofaba australis IT-1, the thesis's M. itaipuensis: speed and size from the thesis; "
            "moment and spreads assumed (B2, B4)")
       .preset("MSR-1", msr1,
@@ -294,13 +284,15 @@ Schema<Dipole::Params> Dipole::schema() {
   return s;
 }
 
-double Dipole::rotational_drag(const Params& p) {
+// f_r, N m s.
+double rotational_drag(const DipoleParams& p) {
   return p.drag_factor * 8 * portable::kPi * p.viscosity * p.radius * p.radius * p.radius;
 }
-double Dipole::rotational_diffusion(const Params& p) {
+// D_r in 1/s and D_t in m^2/s, including overrides.
+double rotational_diffusion(const DipoleParams& p) {
   return p.rotational_diffusion.value_or(kBoltzmann * p.temperature / rotational_drag(p));
 }
-double Dipole::translational_diffusion(const Params& p) {
+double translational_diffusion(const DipoleParams& p) {
   return p.translational_diffusion.value_or(kBoltzmann * p.temperature /
                                             (6 * portable::kPi * p.viscosity * p.radius));
 }

@@ -8,6 +8,8 @@
 
 namespace faba {
 
+struct AvDecoder;
+
 /// Decoder of picture and video files by libavformat and libavcodec. VideoReader uses it for every format
 /// except TIFF; the public functions have the meaning documented there. The format is detected from the
 /// content, not from the file name. Only the file itself is opened; addresses in a play list are not
@@ -38,8 +40,7 @@ class AvStream {
 
  private:
   void read_by_one_thread();
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<AvDecoder> decoder_;
 };
 
 }  // namespace faba
