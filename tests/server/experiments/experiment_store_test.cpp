@@ -33,6 +33,9 @@ TEST_CASE("an experiment is created, changed and listed") {
   CHECK(one["experiment"]["drop"][0] == Json{{"polarity", "south"}, {"name", "A"}});
   CHECK(lab.changes == 1);
   CHECK(lab.store.read("ageing-drops-1-2")["revision"] == one["revision"]);
+  // Times of files have the resolution of the clock of the kernel.
+  fs::last_write_time(lab.folder.path() / "experiments/ageing-drops-1-2-2/experiment.toml",
+                      fs::file_time_type::clock::now() - std::chrono::seconds(5));
   const Json list = lab.store.list();
   REQUIRE(list.size() == 2);
   CHECK(list[0]["name"] == "ageing-drops-1-2");  // changed last
