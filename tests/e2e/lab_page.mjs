@@ -69,8 +69,8 @@ export const panel = async (name) => {
   const one = page.getByRole('tab', { name: new RegExp(`^${name}`) });
   if (await one.count()) await one.click();
 };
-/** The numbers in an element of the page. */
-export const read = async (what) => (await page.locator(`[data-read="${what}"]`).textContent()).match(/-?[\d.]+/g)?.map(Number) ?? [];
+/** The numbers in an element of the page, where a narrow space groups the digits of large ones. */
+export const read = async (what) => (await page.locator(`[data-read="${what}"]`).textContent()).replaceAll('\u202f', '').match(/-?[\d.]+/g)?.map(Number) ?? [];
 export async function until(holds, what) {
   const end = Date.now() + kPatience;
   while (Date.now() < end) {

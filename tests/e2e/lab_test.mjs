@@ -149,7 +149,7 @@ await step('the run is recorded, and the recording has the same state', async ()
 await step('plots are drawn, compared with the recording, and saved', async () => {
   await tab('Runs');
   await shot('runs');
-  await page.locator('tbody tr').first().getByRole('link').last().click();
+  await page.locator('tbody tr').first().getByRole('link', { name: 'By-hand', exact: true }).click();
   await page.getByRole('button', { name: 'Compare', exact: true }).click();
   await tab('Lab');
   await panel('Plots');

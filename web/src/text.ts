@@ -18,6 +18,9 @@ function translated(text: string, say: Say): string | undefined {
 /** A message of the program in the language of the page. The Portuguese word "um" is not a unit. */
 export const programText = (text: string, say: Say) => translated(text, say) ?? micro(text);
 
+/** With a capital letter at the start; the sign µ remains. */
+export const capitalised = (text: string) => text.replace(/^[a-zà-ÿ]/, (c) => c.toUpperCase());
+
 /** The title of a job, "activity: file": its verb in the language of the page. */
 export function jobTitle(title: string, say: Say): string {
   const colon = title.indexOf(': ');

@@ -1,6 +1,7 @@
 // Titles of the values of a scenario: that of the schema, or made from the key.
 
 import { kTitles, type Say } from '../i18n';
+import { capitalised, programText } from '../text';
 import type { Schema } from './schema';
 
 // Units in keys, which the value shows, and abbreviations.
@@ -15,7 +16,7 @@ function fromKey(key: string): string {
   const ending = kUnit.exec(words)?.[1];
   const rest = (ending ? words.replace(kUnit, '') : words).split(' ').map((w) => (Object.hasOwn(kWords, w) ? kWords[w] : w)).join(' ');
   const text = ending === 'sd' ? `${rest}, ${kWords.sd}` : rest;
-  return text.charAt(0).toUpperCase() + text.slice(1);
+  return capitalised(text);
 }
 
 /** The English title of a value; sections and parts have their key as the title in the schema. */
@@ -26,3 +27,6 @@ export function titleOf(key: string, schema: Schema, say: Say): string {
   const english = englishTitle(key, schema), all = kTitles[say.language];
   return Object.hasOwn(all, english) ? all[english] : english;
 }
+
+/** The title of a value of a study file: its key, which has a translation with the texts of the program. */
+export const studyTitle = (key: string, say: Say) => capitalised(programText(key.replaceAll('_', ' '), say));
