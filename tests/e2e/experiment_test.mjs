@@ -8,7 +8,7 @@ import assert from 'node:assert/strict';
 import { copyFileSync, mkdtempSync, readFileSync, utimesSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { address, browser, complaints, context, elsewhere, faba, kJobPatience, lab, page, shot, step, tab, until, workspace } from './lab_page.mjs';
+import { address, browser, complaints, context, elsewhere, faba, kJobPatience, lab, page, read, shot, step, tab, until, workspace } from './lab_page.mjs';
 
 const kExposures = [100, 300, 500, 700]; // s
 const user = mkdtempSync(join(tmpdir(), 'faba-user-'));
@@ -178,7 +178,19 @@ await step('tracks of a video, with a filter', async () => {
   await page.getByText(/cells detected in this frame/).waitFor({ timeout: kJobPatience });
   await page.reload();
   await page.getByText(/cells detected in this frame/).waitFor({ timeout: kJobPatience });
-  await page.goBack();
+  await page.getByRole('button', { name: 'Track the video' }).click();
+  await page.getByText('tracks are used').waitFor({ timeout: kJobPatience });
+  const used = async () => (await read('used'))[0], all = await used();
+  await page.locator('[data-feature="points"]').getByLabel('Detections: Minimum, ').fill('20');
+  await page.keyboard.press('Enter');
+  await until(async () => (await used()) < all, 'short tracks are cut');
+  const left = await used();
+  await page.waitForTimeout(500); // the cut is saved
+  await page.reload();
+  await page.getByText('tracks are used').waitFor();
+  assert.equal(await used(), left, 'the cut survives a reload');
+  await tab('Experiments');
+  await page.getByRole('link', { name: 'Theirs' }).click();
   await page.getByRole('heading', { name: 'Videos' }).waitFor();
 });
 
