@@ -264,6 +264,7 @@ await step('identify: a study is composed from the schema, and the terminal can 
   await page.getByLabel('Reversal reversal', { exact: true }).fill('0.2 s');
   await page.getByRole('group', { name: 'Add a model' }).getByRole('button', { name: 'dipole' }).click();
   await page.getByRole('button', { name: 'Remove speed', exact: true }).waitFor(); // a quantity with a unit; it is the first free parameter
+  await page.getByRole('group', { name: 'dipole' }).getByLabel('highest', { exact: true }).fill('300 um/s'); // below speed_max
   await page.getByLabel('Add a free parameter').selectOption('swarm[0].count');
   await page.getByRole('group', { name: 'dipole' }).getByLabel('lowest', { exact: true }).last().fill('10');
   await page.getByRole('group', { name: 'dipole' }).getByLabel('highest', { exact: true }).last().fill('1000');
