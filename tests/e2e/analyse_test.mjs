@@ -263,12 +263,14 @@ await step('identify: a study is composed from the schema, and the terminal can 
   await page.getByLabel('Swimming direction after the reversal').fill('0');
   await page.getByLabel('Reversal reversal', { exact: true }).fill('0.2 s');
   await page.getByRole('group', { name: 'Add a model' }).getByRole('button', { name: 'dipole' }).click();
+  await page.getByRole('button', { name: 'Remove speed', exact: true }).waitFor(); // a quantity with a unit; it is the first free parameter
+  await page.getByRole('group', { name: 'dipole' }).getByLabel('highest', { exact: true }).fill('300 um/s'); // below speed_max
   await page.getByLabel('Add a free parameter').selectOption('swarm[0].count');
   await page.getByRole('group', { name: 'dipole' }).getByLabel('lowest', { exact: true }).last().fill('10');
   await page.getByRole('group', { name: 'dipole' }).getByLabel('highest', { exact: true }).last().fill('1000');
   await page.getByLabel('Name of the study').fill('Small study');
   await page.getByLabel('Look look', { exact: true }).selectOption('positions');
-  await page.getByLabel('Simulations simulations', { exact: true }).fill('100');
+  await page.getByLabel('Simulations simulations', { exact: true }).fill('120');
   await page.locator('fieldset', { hasText: 'Settings' }).last().getByText('More options').click();
   await page.getByLabel('Nuisances nuisances', { exact: true }).uncheck();
   await main('Check').click();

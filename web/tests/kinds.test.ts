@@ -67,13 +67,13 @@ it('required values are missing until they are given', () => {
 });
 
 it('numbers of a scenario have paths', () => {
-  const number = { type: 'number', minimum: 0, maximum: 9 };
+  const number = { type: 'number', minimum: 0, maximum: 9 }, quantity = { ...number, type: ['number', 'string'] };
   const schema = {
     properties: {
       title: { type: 'string' },
       rate: number,
       free: { type: 'number' },
-      swarm: { type: 'array', items: { properties: { count: { type: 'integer', minimum: 1, maximum: 9 }, model: { oneOf: [{ properties: { type: { const: 'a' }, speed: number } }, { properties: { type: { const: 'b' }, other: number } }] } } } },
+      swarm: { type: 'array', items: { properties: { count: { type: 'integer', minimum: 1, maximum: 9 }, model: { oneOf: [{ properties: { type: { const: 'a' }, speed: quantity } }, { properties: { type: { const: 'b' }, other: number } }] } } } },
     },
   };
   const found = numberPaths(schema as never, { title: 'x', rate: 2, free: 1, swarm: [{ count: 3, model: { type: 'a', speed: '5 um/s' } }] });

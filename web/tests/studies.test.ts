@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import { candidateTable, freeChoices, newFree, sweepVariants } from '../src/jobs/studies';
 
-const speed = { type: 'number', 'x-unit': 'm/s', minimum: 0, maximum: 0.001, default: '186 um/s' };
+const speed = { type: ['number', 'string'], 'x-unit': 'm/s', minimum: 0, maximum: 0.001, default: '186 um/s' };
 const swarm = { properties: { count: { type: 'integer', minimum: 1, maximum: 100000 }, model: { oneOf: [{ properties: { type: { const: 'dipole' }, speed, note: { type: 'string' } } }] } } };
 
 describe('free parameters', () => {

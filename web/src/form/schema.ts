@@ -45,14 +45,15 @@ export interface Piece {
 
 export type Kind = 'flag' | 'choice' | 'number' | 'integer' | 'text' | 'vector' | 'numbers' | 'points' | 'tables' | 'part' | 'table';
 
-const numeric = (s: Schema) => s.type === 'number' || s.type === 'integer' || (Array.isArray(s.type) && s.type.includes('number'));
+/** A number, or a quantity as text with a unit. */
+export const isNumber = (s: Schema) => s.type === 'number' || s.type === 'integer' || (Array.isArray(s.type) && s.type.includes('number'));
 
 export function kindOf(s: Schema): Kind {
   if (s.oneOf) return 'part';
   if (s.enum) return 'choice';
   if (s.type === 'boolean') return 'flag';
   if (s.type === 'integer') return 'integer';
-  if (numeric(s)) return 'number';
+  if (isNumber(s)) return 'number';
   if (s.type === 'array') {
     const of = s.items ?? {};
     if (of.oneOf || of.properties) return 'tables';

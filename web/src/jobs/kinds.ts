@@ -1,7 +1,7 @@
 // Kinds of jobs, the files that they need, and the times of the queue.
 
 import { get, post } from '../connection';
-import { variant, type Schema } from '../form/schema';
+import { isNumber, variant, type Schema } from '../form/schema';
 import type { Say, Word } from '../i18n';
 import type { Job } from '../lab.svelte';
 
@@ -151,7 +151,6 @@ export interface NumberPath {
   schema: Schema;
   value: any;
 }
-const isNumber = (s: Schema) => s.type === 'number' || s.type === 'integer';
 /** All numbers of a resolved scenario that have a range, with their paths. */
 export function numberPaths(schema: Schema, value: any, path = ''): NumberPath[] {
   if (isNumber(schema)) return schema.minimum !== undefined && schema.maximum !== undefined ? [{ path, schema, value }] : [];

@@ -1,6 +1,6 @@
 // Studies that are composed in the page: JSON with the keys of a study file; see POST /api/studies.
 
-import { amount, type Schema, variant } from '../form/schema';
+import { amount, isNumber, type Schema, variant } from '../form/schema';
 import { showQuantity } from '../quantity';
 import { steps, type NumberPath } from './kinds';
 
@@ -25,7 +25,7 @@ const withUnit = (v: number, unit = '') => (unit ? `${Number(v.toPrecision(6))} 
 export function freeChoices(swarm: Schema, type: string): Record<string, Schema> {
   const found: Record<string, Schema> = {};
   const take = (path: string, s?: Schema) => {
-    if (s && (s.type === 'number' || s.type === 'integer') && s.minimum !== undefined && s.maximum !== undefined) found[path] = s;
+    if (s && isNumber(s) && s.minimum !== undefined && s.maximum !== undefined) found[path] = s;
   };
   const properties = (swarm.properties?.model && variant(swarm.properties.model, type)?.properties) || {};
   for (const [key, s] of Object.entries(properties)) take(`swarm[0].model.${key}`, s);
