@@ -8,7 +8,7 @@ import assert from 'node:assert/strict';
 import { copyFileSync, mkdtempSync, readFileSync, utimesSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { address, browser, complaints, context, elsewhere, faba, kJobPatience, lab, page, read, shot, step, tab, until, workspace } from './lab_page.mjs';
+import { address, browser, complaints, context, elsewhere, faba, kJobPatience, lab, page, read, root, shot, step, tab, until, workspace } from './lab_page.mjs';
 
 const kExposures = [100, 300, 500, 700]; // s
 const user = mkdtempSync(join(tmpdir(), 'faba-user-'));
@@ -122,7 +122,7 @@ await step('the field: direction, time of the reversal', async () => {
 
 await step('the scale is measured in a picture of a ruler', async () => {
   const ruler = join(user, 'ruler.png');
-  writeFileSync(ruler, readFileSync(join(process.cwd(), 'docs/img/ruler.png')));
+  writeFileSync(ruler, readFileSync(join(root, 'docs/img/ruler.png')));
   await page.getByRole('button', { name: 'Measure a ruler' }).click();
   await page.locator('.ruler input[type=file]').setInputFiles(ruler);
   await page.locator('.ruler [role=status]').waitFor();
