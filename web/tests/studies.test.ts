@@ -10,7 +10,7 @@ describe('free parameters', () => {
     expect(Object.keys(freeChoices(swarm, 'unknown'))).toEqual(['swarm[0].count']);
   });
   it('begin with half to twice the default, within the limits', () => {
-    expect(newFree('p', speed)).toEqual({ path: 'p', prior: 'range', a: '0.000093 m/s', b: '0.000372 m/s' });
+    expect(newFree('p', speed)).toEqual({ path: 'p', prior: 'range', a: '0.000093 m/s', b: '0.000279 m/s' });
     expect(newFree('p', { ...speed, maximum: 0.0002 }).b).toBe('0.0002 m/s');
     expect(newFree('p', { type: 'number', minimum: 0, maximum: 2 })).toEqual({ path: 'p', prior: 'full', a: 0, b: 2 });
     expect(newFree('p', { type: 'integer', minimum: 1, maximum: 9 }).prior).toBe('range'); // an integer needs a range

@@ -36,7 +36,7 @@ export function freeChoices(swarm: Schema, type: string): Record<string, Schema>
 export function newFree(path: string, s: Schema): FreeParameter {
   const unit = s['x-unit'] ?? '', value = amount(s.default, unit);
   if (value === null || value <= 0) return { path, prior: s.type === 'integer' ? 'range' : 'full', a: withUnit(s.minimum!, unit), b: withUnit(s.maximum!, unit) };
-  const low = Math.max(s.minimum!, value / 2), high = Math.min(s.maximum!, value * 2);
+  const low = Math.max(s.minimum!, value / 2), high = Math.min(s.maximum!, value * 1.5); // twice the default is above the largest speed of some models
   const rounded = (v: number) => (s.type === 'integer' ? Math.round(v) : v);
   return { path, prior: 'range', a: withUnit(rounded(low), unit), b: withUnit(rounded(high), unit) };
 }

@@ -58,8 +58,14 @@ export function valueAt(e: Experiment, [key, item, field]: string[]): unknown {
   return field === undefined ? found : found?.[field];
 }
 
-/** The changes that undo others. */
-export const inverse = (changes: Change[]): Change[] => changes.map(({ path, from, to }) => ({ path, from: to, to: from })).reverse();
+/** The changes that undo others. An item whose identity was changed has its new one in the path. */
+export const inverse = (changes: Change[]): Change[] =>
+  changes
+    .map(({ path, from, to }) => {
+      const renamed = path.length === 3 && path[2] === kIdentity[path[0]];
+      return { path: renamed ? [path[0], String(to), path[2]] : path, from: to, to: from };
+    })
+    .reverse();
 
 type Value = string | number | undefined;
 /** A time, s; undefined for an empty or invalid text. */
@@ -89,14 +95,17 @@ export function nextDropName(drops: Drop[]): string {
   return String(n);
 }
 
+/** Whether exposure times can be proposed for the videos of a drop: that of one video is known. */
+export const mayPropose = (videos: Video[]) => videos.some((v) => seconds(v.exposure) !== undefined);
 /**
- * Air exposure times from the times of files, for videos of one drop without one: the time after the earliest file with a
- * known exposure, or after the earliest file. `modified`: Unix time of each file, s.
+ * Air exposure times from the times of files, for videos of one drop without one, relative to the earliest file with a known
+ * exposure. `modified`: Unix time of each file, s.
  */
 export function proposedExposures(videos: Video[], modified: Record<string, number>): Change[] {
   const timed = videos.filter((v) => modified[v.file] > 0).sort((a, b) => modified[a.file] - modified[b.file]);
   const known = timed.find((v) => seconds(v.exposure) !== undefined);
-  const zero = known ? modified[known.file] - seconds(known.exposure)! : timed.length ? modified[timed[0].file] : 0;
+  if (!known) return [];
+  const zero = modified[known.file] - seconds(known.exposure)!;
   return timed
     .filter((v) => v.exposure === undefined && modified[v.file] >= zero)
     .map((v) => ({ path: ['video', v.file, 'exposure'], to: `${Math.round(modified[v.file] - zero)} s` }));
