@@ -355,8 +355,7 @@ await step('ended jobs are listed by the next lab, with their results; a list ca
   await page.goto(address);
   await tab('Jobs');
   const sweep = page.locator('li', { hasText: 'sweep.toml' });
-  await sweep.getByRole('link', { name: 'Open' }).click();
-  await report();
+  await sweep.getByRole('link', { name: 'Open' }).click(); // shows the report at once
   await page.locator('section').getByText('count 30').first().waitFor();
   await tab('Jobs');
   await page.getByRole('button', { name: 'Clear finished jobs' }).click();
