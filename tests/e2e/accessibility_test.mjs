@@ -8,6 +8,7 @@ import { join } from 'node:path';
 import { address, browser, faba, lab, page, root, step } from './lab_page.mjs';
 
 const axe = readFileSync(join(root, 'web/node_modules/axe-core/axe.min.js'), 'utf8');
+const kSettle = 1000; // ms for a page to load its content; pages that poll are never idle
 const kPlaces = [
   'lab', 'gallery', 'experiments', 'experiments/x', 'experiments/x?measure=identify', 'runs', 'runs/seen', 'analyse', 'analyse/track', 'analyse/identify',
   'analyse/compare-controllers', 'analyse/sweep', 'analyse/field-map', 'jobs', 'bench', 'own', 'video', 'video?file=runs%2Fseen', 'tracks',
@@ -29,7 +30,7 @@ for (const theme of ['light', 'dark']) {
     const found = [];
     for (const place of kPlaces) {
       await page.evaluate((h) => (location.hash = h), `#/${place}`);
-      await page.waitForLoadState('networkidle');
+      await page.waitForTimeout(kSettle);
       await page.evaluate(axe);
       const violations = await page.evaluate(async () => (await window.axe.run(document, { resultTypes: ['violations'] })).violations);
       for (const v of violations.filter((one) => ['serious', 'critical'].includes(one.impact))) found.push(`${place}: ${v.id}: ${v.nodes[0].html.slice(0, 200)}`);
