@@ -10,6 +10,7 @@ GNU parallel, or the slurmd of a node) what started it. Engines whose packages a
 import argparse
 import faulthandler
 import json
+import math
 import os
 import pathlib
 import re
@@ -48,8 +49,8 @@ class Test:
         print(f"  SKIPPED: {what}", flush=True)
         self.skipped.append(what)
 
-    def faba(self, *arguments, cwd=None):
-        return subprocess.run([self.program, *map(str, arguments)], capture_output=True, text=True, cwd=cwd or self.folder)
+    def faba(self, *arguments, cwd=None, timeout=None):
+        return subprocess.run([self.program, *map(str, arguments)], capture_output=True, text=True, cwd=cwd or self.folder, timeout=timeout)
 
     def start(self, *arguments):
         return subprocess.Popen([self.program, *map(str, arguments)], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
@@ -218,10 +219,13 @@ class Test:
                 pass
         return size
 
-    def wait_for_results(self, run, out, bytes_):
+    def wait_for_results(self, run, out, bytes_, limit=math.inf):
+        end = time.monotonic() + limit
         while not (self.size_of_results(out) > bytes_ and self.workers(out)):
             if run.poll() is not None:
                 raise RuntimeError(f"{out}: the command ended before it could be interrupted, exit code {run.returncode} {run.stderr.read()}")
+            if time.monotonic() > end:
+                raise TimeoutError(f"{out}: no results within {limit} s")
             time.sleep(0.01)
 
     def log(self, out):
