@@ -72,7 +72,7 @@ std::vector<JobInput> with_part(std::vector<JobInput> inputs) {
   return inputs;
 }
 
-// Run times below: user time with two threads on two cores, as seen.mp4 (640 x 480 px, 45 frames).
+// Run times below are assumed, after single runs on two cores; those of jobs that end replace them.
 std::vector<JobKind> video_kinds() {
   JobInput noise = video_input("noise", "Video of a dead sample, from which the threshold is measured");
   noise.option = "--noise";
