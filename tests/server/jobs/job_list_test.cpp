@@ -42,7 +42,8 @@ TEST_CASE("a job: arguments, working folder, progress, result") {
                                   "echo '{\"out\": 7}'\n");
   std::atomic<int> changes = 0;
   JobList list(program, folder.path(), [&] { ++changes; });
-  const int id = list.add("title", {"run", "a b", "$(x)"}, "page.html", "out");
+  const int id =
+      list.add({.title = "title", .words = {"run", "a b", "$(x)"}, .page = "page.html", .out = "out"});
   const Job half = wait_for(list, id, [](const Job& j) { return j.of == 10; });
   CHECK(half.state == Job::State::running);
   CHECK(half.doing == "doing this");
@@ -63,13 +64,13 @@ TEST_CASE("a failed job has an error message, and the next job runs") {
   const fs::path program =
       script(folder.path(), "echo 'faba: note: x' >&2; echo \"faba: error: $1: is wrong$3\" >&2; exit $2\n");
   JobList list(program, folder.path(), [] {});
-  const int bad = list.add("", {"scene", "2"}, "", ""), good = list.add("", {"other", "0"}, "", "");
+  const int bad = list.add({.words = {"scene", "2"}}), good = list.add({.words = {"other", "0"}});
   CHECK(wait_for(list, bad, is_over).error == "scene: is wrong");
   CHECK(wait_for(list, good, is_over).state == Job::State::done);
-  const int usage = list.add("", {"--at", "2", " (see /x/faba run --help)"}, "", "");
+  const int usage = list.add({.words = {"--at", "2", " (see /x/faba run --help)"}});
   CHECK(wait_for(list, usage, is_over).error == "--at: is wrong");
   JobList none(folder.path() / "absent", folder.path(), [] {});
-  CHECK(wait_for(none, none.add("", {}, "", ""), is_over).state == Job::State::failed);
+  CHECK(wait_for(none, none.add(Job()), is_over).state == Job::State::failed);
 }
 
 TEST_CASE("cancel stops the running job with SIGINT and, after a timeout, with SIGKILL") {
@@ -79,7 +80,7 @@ TEST_CASE("cancel stops the running job with SIGINT and, after a timeout, with S
                                   "[ \"$1\" = ignores ] && trap '' INT\n"
                                   "echo > started\nfor i in $(seq 1000); do sleep 0.05; done\n");
   JobList list(program, folder.path(), [] {});
-  const int first = list.add("", {"x"}, "", ""), waiting = list.add("", {"y"}, "", "");
+  const int first = list.add({.words = {"x"}}), waiting = list.add({.words = {"y"}});
   wait_for(list, first, [&](const Job&) { return fs::exists(folder.path() / "started"); });
   CHECK(list.cancel(waiting));
   CHECK(list.cancel(first));
@@ -88,7 +89,7 @@ TEST_CASE("cancel stops the running job with SIGINT and, after a timeout, with S
   CHECK(wait_for(list, waiting, is_over).state == Job::State::cancelled);
   CHECK(fs::exists(folder.path() / "stopped"));
   fs::remove(folder.path() / "started");
-  const int ignores = list.add("", {"ignores"}, "", "");
+  const int ignores = list.add({.words = {"ignores"}});
   wait_for(list, ignores, [&](const Job&) { return fs::exists(folder.path() / "started"); });
   list.cancel(ignores);
   CHECK(wait_for(list, ignores, is_over).state == Job::State::cancelled);
@@ -101,8 +102,8 @@ TEST_CASE("the queue: a job moves to the front, and an ended one starts again or
                                   "[ \"$1\" = first ] && while [ ! -e go ]; do sleep 0.02; done\n"
                                   "[ \"$1\" = bad ] && [ ! -e mended ] && exit 1\nexit 0\n");
   JobList list(program, folder.path(), [] {});
-  const int first = list.add("", {"first"}, "", ""), bad = list.add("", {"bad"}, "", ""),
-            last = list.add("", {"last"}, "", "");
+  const int first = list.add({.words = {"first"}}), bad = list.add({.words = {"bad"}}),
+            last = list.add({.words = {"last"}});
   wait_for(list, first, [](const Job& j) { return j.state == Job::State::running; });
   CHECK(list.move_to_front(last));
   CHECK_FALSE(list.move_to_front(first));  // it is running
@@ -139,7 +140,8 @@ TEST_CASE("ended jobs are listed by the next list in the same workspace, with th
     other.out = "experiments/one/results/drop-2";
     other.page = other.out / "edge.png";
     cleared = list.add(other);
-    const int recording = list.add("recording", {}, "runs/r/report.html", "runs/r");
+    const int recording =
+        list.add({.title = "recording", .words = {}, .page = "runs/r/report.html", .out = "runs/r"});
     wait_for(list, recording, is_over);
     CHECK(list.clear(cleared));
   }
