@@ -66,11 +66,11 @@ void check_numbers(const Json& variant, const std::string& where) {
   if (!variant.contains("set")) return;
   for (const auto& [path, value] : variant["set"].items()) {
     const JobInput number{.key = where + "set." + path};
-    if (!value.is_number() && !is_quantity(value))
-      throw Error(Errc::usage, number.key, fmt::format("{} is not a number or a quantity", value.dump()));
     const auto key = path.substr(path.find_last_of('.') + 1);
     if (key == "file" || key == "background")
       throw Error(Errc::usage, number.key, "is the name of a file; choose a number of the scenario");
+    if (!value.is_number() && !is_quantity(value))
+      throw Error(Errc::usage, number.key, fmt::format("{} is not a number or a quantity", value.dump()));
   }
 }
 
