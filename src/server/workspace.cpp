@@ -8,6 +8,7 @@
 #include "app/recording/run_lock.h"
 #include "app/recording/session.h"
 #include "core/error.h"
+#include "server/file_kinds.h"
 #include "server/gallery_index.h"
 #include "study/data/run_video.h"
 
@@ -17,9 +18,6 @@ namespace {
 namespace fs = std::filesystem;
 constexpr std::size_t kLongest = 1000;
 constexpr std::size_t kMostFiles = 500, kMostRuns = 5000;
-constexpr std::array<const char*, 6> kVideos = {".mp4", ".avi", ".mkv", ".mov", ".webm", ".tif"};
-constexpr std::array<const char*, 8> kPictures = {".png",  ".jpg", ".jpeg", ".tif",
-                                                  ".tiff", ".pgm", ".ppm",  ".bmp"};
 constexpr const char* kPictureFolder = "pictures";
 
 Error out_of_reach(std::string_view name) {
@@ -143,7 +141,8 @@ std::vector<std::string> Workspace::pictures() const {
   std::error_code ec;
   for (const char* folder : {".", kPictureFolder, "videos", "data"})
     for (const fs::directory_entry& e : fs::directory_iterator(root_ / folder, ec))
-      if (has_video_name(e.path()) && may_read(e.path()) && found.size() < kMostFiles)
+      if ((has_video_extension(e.path()) || has_picture_extension(e.path())) && may_read(e.path()) &&
+          found.size() < kMostFiles)
         found.push_back(name_of(e.path()));
   std::sort(found.begin(), found.end());
   for (const std::string& run : runs()) {
@@ -201,14 +200,6 @@ std::vector<std::string> Workspace::runs() const {
   for (auto& [_, name] : found)
     if (names.size() < kMostRuns) names.push_back(std::move(name));
   return names;
-}
-
-bool has_video_name(const fs::path& file) {
-  std::string extension = file.extension();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
-  return std::ranges::find(kVideos, extension) != kVideos.end() ||
-         std::ranges::find(kPictures, extension) != kPictures.end();
 }
 
 }  // namespace faba

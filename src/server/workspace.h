@@ -63,7 +63,4 @@ class Workspace {
   std::vector<std::filesystem::path> allowed_;
 };
 
-/// Whether the extension of a file is that of a video, a picture or a picture sequence.
-bool has_video_name(const std::filesystem::path& file);
-
 }  // namespace faba

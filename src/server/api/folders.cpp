@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "server/api/lab_services.h"
 #include "server/api/responses.h"
+#include "server/file_kinds.h"
 #include "server/request_values.h"
 
 namespace faba {
@@ -41,7 +42,7 @@ Json list(const LabServices& lab, const std::string& path) {
   for (const fs::path& e : entries) {
     if (fs::is_directory(e, ec))
       folders.push_back(folder_json(lab, e));
-    else if (has_video_name(e))
+    else if (has_video_extension(e) || has_picture_extension(e))
       files.push_back(
           {{"name", e.filename()}, {"path", lab.workspace.name_of(e)}, {"bytes", fs::file_size(e, ec)}});
   }

@@ -6,6 +6,7 @@
 #include "app/recording/session.h"
 #include "app/scenario/file_kind.h"
 #include "core/error.h"
+#include "server/file_kinds.h"
 #include "server/file_time.h"
 #include "study/data/run_video.h"
 #include "study/data/video_facts.h"
@@ -18,28 +19,6 @@ namespace fs = std::filesystem;
 constexpr int kDeepestFolder = 5;
 constexpr std::size_t kMostVisited = 50000, kMostListed = 5000;
 constexpr std::uintmax_t kLargestStudy = 1u << 20;  // bytes
-
-// Kinds of files by their extension, in lower case. A TIFF file can be a picture or a stack of frames.
-const std::map<std::string, std::vector<const char*>>& kinds_by_extension() {
-  static const std::map<std::string, std::vector<const char*>> kKinds = {{".mp4", {"video"}},
-                                                                         {".avi", {"video"}},
-                                                                         {".mkv", {"video"}},
-                                                                         {".mov", {"video"}},
-                                                                         {".webm", {"video"}},
-                                                                         {".mpg", {"video"}},
-                                                                         {".tif", {"picture", "video"}},
-                                                                         {".tiff", {"picture", "video"}},
-                                                                         {".png", {"picture"}},
-                                                                         {".jpg", {"picture"}},
-                                                                         {".jpeg", {"picture"}},
-                                                                         {".pgm", {"picture"}},
-                                                                         {".csv", {"table"}},
-                                                                         {".txt", {"table"}},
-                                                                         {".dat", {"table"}},
-                                                                         {".h5", {"table"}},
-                                                                         {".hdf5", {"table"}}};
-  return kKinds;
-}
 
 Json entry(const Workspace& w, const fs::path& file, const char* kind) {
   std::error_code ec;
@@ -102,14 +81,11 @@ struct Search {
   std::size_t visited = 0;
 
   void file(const fs::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
-    if (extension == ".toml" && path.filename() != kExperimentFile)
+    if (path.extension() == ".toml" && path.filename() != kExperimentFile)
       return add_configuration(workspace, path, found);
-    const auto kinds = kinds_by_extension().find(extension);
-    if (kinds == kinds_by_extension().end()) return;
-    for (const char* kind : kinds->second) found.push_back(entry(workspace, path, kind));
+    if (has_picture_extension(path)) found.push_back(entry(workspace, path, "picture"));
+    if (has_video_extension(path)) found.push_back(entry(workspace, path, "video"));
+    if (has_table_extension(path)) found.push_back(entry(workspace, path, "table"));
   }
   void run(const fs::path& path) {
     try {
