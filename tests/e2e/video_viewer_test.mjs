@@ -1,7 +1,7 @@
 // Test of the video viewer in a browser. Stops with an error at the first failed step. With --pictures FOLDER it saves
 // screenshots of the page in FOLDER.
 //
-// With --data FOLDER it opens the recordings in this folder, too (tests/real).
+// With --data FOLDER it opens the recordings in this folder, too (tests/real). Without them these steps are skipped: exit code 77.
 //
 //   node tests/e2e/video_viewer_test.mjs --program build/faba --root . [--data ../shared/data] [--pictures FOLDER]
 
