@@ -66,7 +66,7 @@ WITHIN = {
     },
     "study": {
         "data": "",
-        "experiment": "",
+        "experiment": "data",
         "stats": "",
         "quality": "",
         "sweep": "",

@@ -19,7 +19,7 @@ class FileLock {
   FileLock(FileLock&& other) noexcept;
   FileLock& operator=(FileLock&& other) noexcept;
   ~FileLock();
-  /// Whether a process, also this one, holds such a file. False if there is no file.
+  /// Whether any process, including this one, holds the lock of a file. False if the file does not exist.
   static bool held(const std::filesystem::path& file);
   /// Removes the file: the work that it protects is complete.
   void complete();

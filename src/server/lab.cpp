@@ -156,9 +156,11 @@ class Pages {
     const fs::path scene = dir.string() + ".toml", out = fs::relative(dir, workspace_.root());
     write_file(scene, to_toml(s.resolved()));
     const std::string name = dir.filename().string();
-    jobs_.add(up_to_now ? fmt::format("{} ({})", name, state_hash) : name,
-              {"run", fs::relative(scene, workspace_.root()).string(), "--out", out.string(), "--json"},
-              out / "report.html", out);
+    jobs_.add(
+        {.title = up_to_now ? fmt::format("{} ({})", name, state_hash) : name,
+         .words = {"run", fs::relative(scene, workspace_.root()).string(), "--out", out.string(), "--json"},
+         .page = out / "report.html",
+         .out = out});
     answer["name"] = name;
     return answer;
   }

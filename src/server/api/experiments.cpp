@@ -23,8 +23,8 @@ ImportPart part_of(const WebRequest& r) {
 Json pick(const LabServices& lab, const std::string& name, const Json& asked) {
   const std::filesystem::path file = lab.workspace.existing(text_of(asked, "file"));
   const std::filesystem::path folder = lab.experiments.folder(name);
-  const bool own = lab.workspace.name_of(file) != file.string();
-  const std::string path = own ? file.lexically_relative(folder).string() : file.string();
+  const bool outside = lab.workspace.name_of(file).starts_with('/');
+  const std::string path = outside ? file.string() : file.lexically_relative(folder).string();
   lab.experiments.add_video(name, path, asked.value("drop", ""));
   return {{"file", path}};
 }

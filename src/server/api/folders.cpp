@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "server/api/lab_services.h"
 #include "server/api/responses.h"
+#include "server/request_values.h"
 
 namespace faba {
 namespace {
@@ -45,18 +46,16 @@ Json list(const LabServices& lab, const std::string& path) {
           {{"name", e.filename()}, {"path", lab.workspace.name_of(e)}, {"bytes", fs::file_size(e, ec)}});
   }
   const std::string parent = is_top(lab, folder) ? "" : lab.workspace.name_of(folder.parent_path());
-  return {{"path", lab.workspace.name_of(folder)},
-          {"parent", parent.empty() || parent == "." ? (is_top(lab, folder) ? "" : ".") : parent},
-          {"folders", folders},
-          {"files", files}};
+  return {
+      {"path", lab.workspace.name_of(folder)}, {"parent", parent}, {"folders", folders}, {"files", files}};
 }
 
 }  // namespace
 
 void add_folder_routes(Routes& routes, const LabServices& lab) {
   routes.add("GET", "/api/folders", [&lab](const auto& r, const auto&) {
-    const auto path = r.query.find("path");
-    return json_answer(path == r.query.end() || path->second.empty() ? top(lab) : list(lab, path->second));
+    const std::string path = query_text(r, "path");
+    return json_answer(path.empty() ? top(lab) : list(lab, path));
   });
 }
 

@@ -147,9 +147,7 @@ WebResponse job_file(const LabServices& lab, const std::string& id, const std::s
   if (!j || j->out.empty()) throw unknown_job(id);
   const fs::path file = lab.workspace.existing((j->out / name).string());
   if (!fs::is_regular_file(file)) throw Error(Errc::input, name, "is not a file");
-  WebResponse answer = file_answer(file);
-  answer.report = file.extension() == ".html";
-  return answer;
+  return output_answer(file);
 }
 
 Json jobs(const LabServices& lab) {

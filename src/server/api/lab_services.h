@@ -27,6 +27,9 @@ struct LabServices {
   Trash& trash;
 };
 
+/// A deletion as the pages see it: "id", "name" and "bytes".
+Json trash_item_json(const Trash::Item& item);
+
 // Each adds the requests of one concept; see web/protocol.md. The services must outlive the routes.
 void add_bench_routes(Routes& routes, const LabServices& lab);
 void add_experiment_routes(Routes& routes, const LabServices& lab);

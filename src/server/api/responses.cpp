@@ -4,10 +4,19 @@
 
 namespace faba {
 
-WebResponse json_answer(const Json& j) { return {.body = j.dump()}; }
+// Names of files need not be UTF-8.
+WebResponse json_answer(const Json& j) {
+  return {.body = j.dump(-1, ' ', false, Json::error_handler_t::replace)};
+}
 
 WebResponse file_answer(const std::filesystem::path& file) {
   return {.type = content_type(file), .body = {}, .file = file};
+}
+
+WebResponse output_answer(const std::filesystem::path& file) {
+  WebResponse answer = file_answer(file);
+  answer.report = file.extension() == ".html";
+  return answer;
 }
 
 WebResponse picture_answer(const std::filesystem::path& file) {

@@ -132,18 +132,15 @@ Json compare_with_video(const LabServices& lab, const Json& asked) {
 }
 
 std::string page_in(const WebRequest& r) {
-  const auto it = r.query.find("page");
-  if (it == r.query.end())
+  std::string page = query_text(r, "page");
+  if (page.empty())
     throw Error(Errc::usage, "page", "missing; it must be a file below runs/ or experiments/");
-  return it->second;
+  return page;
 }
 
 // A file of a result of an experiment; runs.cpp has those below runs/.
 WebResponse result_file(const LabServices& lab, const std::string& experiment, const std::string& name) {
-  const fs::path file = page_of(lab, "experiments/" + experiment + "/results/" + name);
-  WebResponse answer = file_answer(file);
-  answer.report = file.extension() == ".html";
-  return answer;
+  return output_answer(page_of(lab, "experiments/" + experiment + "/results/" + name));
 }
 
 }  // namespace

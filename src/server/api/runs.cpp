@@ -34,9 +34,7 @@ WebResponse picture(const LabServices& lab, const std::string& name, const fs::p
 WebResponse output(const LabServices& lab, const std::string& name) {
   const fs::path file = lab.workspace.existing("runs/" + name);
   if (fs::is_directory(file)) throw Error(Errc::input, name, "is a folder, not a file");
-  WebResponse answer = file_answer(file);
-  answer.report = file.extension() == ".html";
-  return answer;
+  return output_answer(file);
 }
 
 void add_changes(Routes& routes, const LabServices& lab) {
@@ -44,8 +42,7 @@ void add_changes(Routes& routes, const LabServices& lab) {
     return json_answer({{"bytes", lab.runs.size(names[0])}});
   });
   routes.add("DELETE", "/api/runs/*", [&lab](const auto&, const auto& names) {
-    const Trash::Item item = lab.runs.remove(names[0]);
-    return json_answer({{"id", item.id}, {"name", item.name}, {"bytes", item.bytes}});
+    return json_answer(trash_item_json(lab.runs.remove(names[0])));
   });
   routes.add("POST", "/api/runs/*/rename", [&lab](const auto& r, const auto& names) {
     return json_answer({{"name", lab.runs.rename(names[0], text_of(body_of(r), "to"))}});

@@ -61,20 +61,18 @@ Json start(TrackServices& t, const Json& asked) {
   const std::string video = request.file.starts_with('/') ? request.file : "./" + request.file;
   std::vector<std::string> words = {"track", video, "--result", folder, "--json"};
   words.insert(words.begin() + 2, request.words.begin(), request.words.end());
-  const std::string title = "track: " + fs::path(request.file).filename().string();
-  return {{"id", t.lab.jobs.add(title, words, folder + "/" + track_files::kReport, folder)},
-          {"folder", folder}};
+  const int id = t.lab.jobs.add({.title = "track: " + fs::path(request.file).filename().string(),
+                                 .words = std::move(words),
+                                 .page = folder + "/" + track_files::kReport,
+                                 .out = folder});
+  return {{"id", id}, {"folder", folder}};
 }
 
 // A file of a result: the names are fixed.
 WebResponse result_file(TrackServices& t, const WebRequest& r, const std::string& name) {
   for (const char* known : {"tracks.csv", "per_track.csv", "tracks.html", "track.json", "edits.toml",
                             "edited_tracks.csv", "edited_features.csv"})
-    if (name == known) {
-      WebResponse answer = file_answer(t.lab.workspace.existing(query_text(r, "folder") + "/" + name));
-      answer.report = name == "tracks.html";
-      return answer;
-    }
+    if (name == known) return output_answer(t.lab.workspace.existing(query_text(r, "folder") + "/" + name));
   throw Error(Errc::input, name.substr(0, 80), "is not a file of a tracked video");
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cctype>
-#include <cstdlib>
 #include <functional>
 
 #include "core/error.h"
@@ -40,20 +39,16 @@ auto under_name(const std::string& name, const fs::path& file, const F& read) {
 
 // The scale of an experiment from a picture of a ruler, which is kept in the folder of the experiment.
 Json take_ruler(const LabServices& lab, const WebRequest& r) {
-  const auto value = [&](const char* key) {
-    const auto it = r.query.find(key);
-    return it == r.query.end() ? std::string() : it->second;
-  };
-  const std::string experiment = value("experiment");
+  const std::string experiment = query_text(r, "experiment");
   (void)lab.experiments.folder(experiment);
-  const std::string name = safe_name(fs::path(value("name")).filename().string());
+  const std::string name = safe_name(fs::path(query_text(r, "name")).filename().string());
   const std::string extension = fs::path(name).extension().string();
   // The type of a picture is known by its name.
   const fs::path named = r.upload.string() + extension;
   fs::rename(r.upload, named);
   try {
-    Json j = measure_ruler(lab, named, std::strtod(value("tick_um").c_str(), nullptr),
-                           "experiments/" + experiment + "/ruler", extension);
+    Json j = measure_ruler(lab, named, query_number(r, "tick_um", 0), "experiments/" + experiment + "/ruler",
+                           extension);
     fs::remove(named);
     return j;
   } catch (const Error& e) {
@@ -82,8 +77,7 @@ std::string extension_of(const std::string& name) {
 
 // The original is kept until the lab ends, so that a scenario can use it.
 Json take_upload(const LabServices& lab, const WebRequest& r) {
-  const auto named = r.query.find("name");
-  std::string name = named == r.query.end() ? "" : fs::path(named->second).filename().string();
+  std::string name = fs::path(query_text(r, "name")).filename().string();
   if (name.empty()) name = "picture";
   const std::string kept = next_name("original") + extension_of(name);
   return under_name(name, r.upload, [&] {
@@ -119,16 +113,15 @@ Json keep(const LabServices& lab, const Json& asked) {
 
 // Rendered again only if the file has changed.
 WebResponse shown_picture(const LabServices& lab, const WebRequest& r) {
-  const auto named = r.query.find("file");
-  if (named == r.query.end() || named->second.empty())
-    throw Error(Errc::usage, "file", "missing; it must be a non-empty string");
-  const fs::path file = lab.workspace.scenario_file(named->second);
+  const std::string name = query_text(r, "file");
+  if (name.empty()) throw Error(Errc::usage, "file", "missing; it must be a non-empty string");
+  const fs::path file = lab.workspace.scenario_file(name);
   std::error_code ec;
   const auto changed = fs::last_write_time(file, ec).time_since_epoch().count();
-  if (ec) throw Error(Errc::input, named->second, "file not found");
+  if (ec) throw Error(Errc::input, name, "file not found");
   const fs::path png =
       lab.pictures / fmt::format("file-{:x}-{}.png", std::hash<std::string>()(file.string()), changed);
-  if (!fs::exists(png)) under_name(named->second, file, [&] { write_displayed_picture(file, png); });
+  if (!fs::exists(png)) under_name(name, file, [&] { write_displayed_picture(file, png); });
   return picture_answer(png);
 }
 

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstring>
 
@@ -8,6 +7,7 @@
 #include "core/file.h"
 #include "server/api/lab_services.h"
 #include "server/api/responses.h"
+#include "server/file_time.h"
 #include "server/request_values.h"
 #include "server/videos/open_videos.h"
 #include "study/data/frame_flow.h"
@@ -88,12 +88,6 @@ Json about(VideoFrames& video) {
           {"um_per_px_source", scale.source},
           {"note", scale.ignored},
           {"damage", video.damage()}};
-}
-
-// Time of a file, s since 1970.
-std::int64_t modified_s(const fs::path& file) {
-  const auto time = fs::file_time_type::clock::to_sys(fs::last_write_time(file));
-  return std::chrono::duration_cast<std::chrono::seconds>(time.time_since_epoch()).count();
 }
 
 // Looks for the last frame, which may take a while without an index in the file.

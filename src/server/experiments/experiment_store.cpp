@@ -33,14 +33,24 @@ Json card(const std::string& name, const fs::path& file) {
   }
 }
 
+bool is_utf8(const std::string& text) {
+  try {
+    (void)Json(text).dump();
+    return true;
+  } catch (const Json::exception&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 std::string safe_name(const std::string& text) {
   std::string name;
+  const bool unicode = is_utf8(text);
   for (const char c : text) {
     const auto u = static_cast<unsigned char>(c);
-    // Bytes of UTF-8 letters remain as they are.
-    const bool good = std::isalnum(u) || u >= 0x80 || c == '.' || c == '_';
+    // Letters of UTF-8 remain as they are; other bytes would make the experiment file invalid.
+    const bool good = u < 0x80 ? std::isalnum(u) || c == '.' || c == '_' : unicode;
     if (good)
       name += c;
     else if (!name.empty() && name.back() != '-')
@@ -124,7 +134,10 @@ void ExperimentStore::add_video(const std::string& name, const std::string& file
   const std::lock_guard lock(mutex_);
   Document d = read_toml(folder(name) / kExperimentFile);
   Json video = {{"file", file}};
-  if (!drop.empty()) video["drop"] = drop;
+  // Another page may have removed the drop during the upload.
+  const Experiment before = read_experiment(d);
+  if (std::ranges::find(before.drops, drop, &ExperimentDrop::name) != before.drops.end())
+    video["drop"] = drop;
   if (!d.root.contains("video")) d.root["video"] = Json::array();
   d.root["video"].push_back(std::move(video));
   write_locked(name, std::move(d));

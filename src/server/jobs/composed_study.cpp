@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/units.h"
 #include "server/experiments/experiment_store.h"
 #include "server/jobs/job_estimate.h"
 #include "server/jobs/job_words.h"
@@ -50,18 +51,26 @@ void turn(Json& table, const std::string& where) {
   table["direction"] = word_of(direction, table["direction"]) + " deg";
 }
 
+bool is_quantity(const Json& value) {
+  if (!value.is_string()) return false;
+  try {
+    (void)parse_quantity(value.get<std::string>());
+    return true;
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
+}
+
 // Values that override those of a scene are numbers: a text could name a file outside the workspace.
 void check_numbers(const Json& variant, const std::string& where) {
   if (!variant.contains("set")) return;
   for (const auto& [path, value] : variant["set"].items()) {
     const JobInput number{.key = where + "set." + path};
-    if (value.is_string() && value.get<std::string>().find_first_of("0123456789") == std::string::npos)
-      throw Error(Errc::usage, number.key, fmt::format("{} is not a number or a quantity", value.dump()));
-    if (!value.is_string() && !value.is_number())
-      throw Error(Errc::usage, number.key, fmt::format("{} is not a number or a quantity", value.dump()));
     const auto key = path.substr(path.find_last_of('.') + 1);
     if (key == "file" || key == "background")
       throw Error(Errc::usage, number.key, "is the name of a file; choose a number of the scenario");
+    if (!value.is_number() && !is_quantity(value))
+      throw Error(Errc::usage, number.key, fmt::format("{} is not a number or a quantity", value.dump()));
   }
 }
 

@@ -1,12 +1,12 @@
 #include "server/jobs/input_files.h"
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 
 #include "app/recording/session.h"
 #include "app/scenario/file_kind.h"
 #include "core/error.h"
+#include "server/file_time.h"
 #include "study/data/run_video.h"
 #include "study/data/video_facts.h"
 #include "study/experiment/experiment.h"
@@ -41,17 +41,13 @@ const std::map<std::string, std::vector<const char*>>& kinds_by_extension() {
   return kKinds;
 }
 
-double seconds_since_1970(fs::file_time_type t) {
-  return std::chrono::duration<double>(std::chrono::file_clock::to_sys(t).time_since_epoch()).count();
-}
-
 Json entry(const Workspace& w, const fs::path& file, const char* kind) {
   std::error_code ec;
   const auto bytes = fs::is_regular_file(file, ec) ? fs::file_size(file, ec) : 0;
   return {{"file", file.lexically_relative(w.root()).generic_string()},
           {"kind", kind},
           {"bytes", bytes},
-          {"time", seconds_since_1970(fs::last_write_time(file, ec))}};
+          {"time", modified_s(file)}};
 }
 
 void add_coil_system(Json e, const Document& d, std::vector<Json>& found) {

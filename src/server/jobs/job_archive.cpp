@@ -13,8 +13,7 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t kLargest = 64u << 20;  // bytes
 
 // `out`: the directory of the file. What the file states about places outside of it is not used.
-Job read_job(const fs::path& file, const fs::path& out) {
-  const Json j = Json::parse(read_file(file));
+Job read_job(const Json& j, const fs::path& out) {
   Job job{.id = j.at("id"), .title = j.at("title"), .words = j.at("words"), .out = out, .kind = j.at("kind")};
   const fs::path page = fs::path(j.at("page").get<std::string>()).filename();
   job.page = page.empty() ? fs::path() : out / page;
@@ -35,8 +34,8 @@ void add_jobs(const fs::path& workspace, const fs::path& folder, std::vector<Job
     const fs::path file = e.path() / kJobFile;
     if (!fs::is_regular_file(file, ec) || fs::file_size(file, ec) > kLargest) continue;
     try {
-      if (Json::parse(read_file(file)).value("listed", true))
-        jobs.push_back(read_job(file, folder / e.path().filename()));
+      const Json j = Json::parse(read_file(file));
+      if (j.value("listed", true)) jobs.push_back(read_job(j, folder / e.path().filename()));
     } catch (const Json::exception&) {
       continue;
     } catch (const Error&) {

@@ -6,6 +6,7 @@
 #include "app/scenario/parts.h"
 #include "app/scenario/read_scenario.h"
 #include "app/scenario/scenario.h"
+#include "core/statistics.h"
 #include "core/units.h"
 #include "server/jobs/job_words.h"
 #include "study/data/video_facts.h"
@@ -96,12 +97,6 @@ double library_work(const Json& values, const Workspace& workspace) {
   return std::pow(levels, coils) / kMega;
 }
 
-double median(std::vector<double> v) {
-  const auto middle = v.begin() + std::ptrdiff_t(v.size() / 2);
-  std::nth_element(v.begin(), middle, v.end());
-  return *middle;
-}
-
 }  // namespace
 
 double work_of(const JobKind& kind, const Json& values, const Workspace& workspace) {
@@ -133,7 +128,7 @@ JobEstimate estimate_job(const JobKind& kind, double work, const std::vector<Job
       rates.push_back(std::max(0.0, j->seconds - kind.fixed_s) / j->work);
   }
   if (rates.empty()) return {kind.fixed_s + work * kind.s_per_work, false};
-  const double rate = median(std::move(rates));
+  const double rate = median_high(rates);
   return {kind.work == JobWork::fixed ? rate : kind.fixed_s + work * rate, true};
 }
 

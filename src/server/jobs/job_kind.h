@@ -70,7 +70,7 @@ struct JobKind {
   JobWork work = JobWork::fixed;
   JobStudy study = JobStudy::none;
   /// Initial estimate, until jobs of this kind are complete: a constant part, and one in proportion to the
-  /// work. Measured on a machine with two cores, see job_kinds.cpp.
+  /// work. Assumed, see job_kinds.cpp.
   double fixed_s = 1, s_per_work = 0;
 
   std::string verb_text() const;  ///< "field map"

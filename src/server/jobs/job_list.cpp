@@ -162,12 +162,6 @@ int JobList::add(Job job) {
   return id;
 }
 
-int JobList::add(std::string title, std::vector<std::string> words, std::filesystem::path page,
-                 std::filesystem::path out) {
-  return add(
-      {.title = std::move(title), .words = std::move(words), .page = std::move(page), .out = std::move(out)});
-}
-
 std::vector<Job>::iterator JobList::find(int id) {
   return std::find_if(jobs_.begin(), jobs_.end(), [id](const Job& j) { return j.id == id; });
 }

@@ -24,8 +24,6 @@ class JobList {
 
   /// Adds a job to the queue; returns its id.
   int add(Job job);
-  int add(std::string title, std::vector<std::string> words, std::filesystem::path page,
-          std::filesystem::path out);
   /// Stops a running job, or cancels a queued one. False if there is no such job.
   bool cancel(int id);
   /// Moves a queued job before the other queued jobs. False for another state.

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "core/error.h"
-#include "core/schema.h"
+#include "core/table_list.h"
 #include "core/units.h"
 
 namespace faba {
@@ -84,16 +84,6 @@ Schema<Experiment> schema() {
       });
 }
 
-template <class T>
-std::vector<T> list_of(const Node& root, const char* key, const Schema<T>& schema) {
-  std::vector<T> all;
-  if (!root.has(key)) return all;
-  const Node list = root.child(key);
-  if (!list.json->is_array()) list.fail(fmt::format("must be an array of tables; write [[{}]]", key));
-  for (std::size_t i = 0; i < list.json->size(); ++i) all.push_back(schema.parse(list.item(i)));
-  return all;
-}
-
 void check_names(const Node& root, const Experiment& e) {
   std::set<std::string> drops, files;
   for (std::size_t i = 0; i < e.drops.size(); ++i)
@@ -124,8 +114,8 @@ Experiment read_experiment(const fs::path& file) { return read_experiment(read_t
 Experiment read_experiment(const Document& d) {
   const Node root(d);
   Experiment e = schema().parse(root, {"drop", "video"});
-  e.drops = list_of(root, "drop", drop_schema());
-  e.videos = list_of(root, "video", video_schema());
+  e.drops = tables_of(root, "drop", drop_schema());
+  e.videos = tables_of(root, "video", video_schema());
   check_names(root, e);
   return e;
 }
@@ -145,8 +135,10 @@ fs::path video_path(const fs::path& experiment_file, const ExperimentVideo& vide
   return experiment_file.parent_path() / video.file;
 }
 
-std::optional<double> um_per_px_of(const Experiment& e, const ExperimentVideo& video) {
-  return video.um_per_px ? video.um_per_px : e.um_per_px;
+std::optional<VideoScale> scale_of(const Experiment& e, const ExperimentVideo& video) {
+  if (video.um_per_px) return VideoScale{video.um_per_px, "typed", {}};
+  if (!e.um_per_px) return {};
+  return VideoScale{e.um_per_px, e.um_per_px_source.empty() ? "typed" : e.um_per_px_source, {}};
 }
 
 std::optional<double> swimming_direction_deg(const Experiment& e, const ExperimentVideo& video) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/toml.h"
+#include "study/data/video_scale.h"
 
 namespace faba {
 
@@ -56,7 +57,8 @@ Json experiment_schema();
 
 /// Path of a video: relative to the folder of the experiment file.
 std::filesystem::path video_path(const std::filesystem::path& experiment_file, const ExperimentVideo& video);
-std::optional<double> um_per_px_of(const Experiment& e, const ExperimentVideo& video);
+/// The scale of a video, with its source; empty if it is not known.
+std::optional<VideoScale> scale_of(const Experiment& e, const ExperimentVideo& video);
 /// Direction in which the cells of a video swim after the reversal of the field: 0 right, 90 down in the
 /// picture, degrees from 0 to 360. Empty unless the direction of the field and the polarity of the drop are
 /// known.

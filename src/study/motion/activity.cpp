@@ -167,7 +167,7 @@ void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index,
   a.notes = source.notes();
   a.scale = source.scale();
   a.timed = source.fps() > 0;
-  if (a.input.um_per_px) a.scale = {a.input.um_per_px, "typed", {}};
+  if (a.input.scale) a.scale = *a.input.scale;
   a.um_per_px = a.scale.um_per_px;
   a.view_px = double(source.width()) * source.height() * source.shrink() * source.shrink();
   if (!cells) return;
@@ -257,7 +257,7 @@ void take_response(VideoActivity& a, const ActivityJob& job) {
                              .check = [&] { check_stop(job, a.input); }};
   a.response = video_response(response, {a.signature, a.segments, a.direction_deg});
   if (!a.response) return;
-  if (is_run(a.input.file) && !a.input.um_per_px)
+  if (is_run(a.input.file) && !a.input.scale)
     a.um_per_px = read_run_info(a.input.file / "manifest.json").um_per_px;
   if (a.response->fraction && a.visible_cells && *a.visible_cells >= 2)
     add_sampling_error(*a.response->fraction, *a.visible_cells);

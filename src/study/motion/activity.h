@@ -22,7 +22,7 @@ struct ActivityInput {
   std::optional<double> reversal_s = {};     ///< time of the field reversal
   double from_s = 0;                         ///< start of the evaluation, and zero of time for exposure lines
   std::optional<double> to_s = {};           ///< end of the evaluation
-  std::optional<double> um_per_px = {};      ///< image scale given by the user, instead of that of the file
+  std::optional<VideoScale> scale = {};      ///< given by the user, instead of that of the file
 };
 
 /// Input of measure_activity() (theory A16).

@@ -100,7 +100,7 @@ void take_experiment(const Document& d, ActivityJob& job) {
                           .reversal_s = v.reversal_s,
                           .from_s = v.from_s.value_or(0),
                           .to_s = v.to_s,
-                          .um_per_px = um_per_px_of(e, v)});
+                          .scale = scale_of(e, v)});
   }
 }
 

@@ -114,4 +114,5 @@ TEST_CASE("names of files are safe") {
   CHECK(safe_name("gota-ção.avi") == "gota-ção.avi");
   CHECK(safe_name(std::string(300, 'a')).size() == 80);
   CHECK(safe_name(std::string("a\n\0b", 4)) == "a-b");
+  CHECK(safe_name("a\xff.avi") == "a-.avi");  // not UTF-8
 }

@@ -91,3 +91,9 @@ TEST_CASE("S6: uploads cannot leave the folder of the experiment") {
   CHECK(!fs::exists(other.path() / "target"));
   CHECK_THROWS_AS(lab.imports.take("../x", {.name = "a.pgm", .size = 4}, "abcd"), const Error&);
 }
+
+TEST_CASE("the drop of a video may have been removed during its upload") {
+  Lab lab;
+  lab.imports.take("x", {.name = "a.pgm", .size = kPicture.size(), .drop = "A"}, kPicture);
+  CHECK(lab.store.read("x")["experiment"]["video"] == Json::array({{{"file", "videos/a.pgm"}}}));
+}

@@ -34,7 +34,7 @@ Job wait_for(const JobList& list, int id, const std::function<bool(const Job&)>&
 /// A list of jobs whose program is a shell script, in its folder.
 struct Jobs {
   explicit Jobs(const std::string& text) : list(script(folder.path(), text), folder.path(), [] {}) {}
-  int add(const std::string& word) { return list.add("", {word}, "", ""); }
+  int add(const std::string& word) { return list.add({.words = {word}}); }
   fs::path file(const char* name) const { return folder.path() / name; }
 
   test::TemporaryFolder folder{"jobs"};
@@ -52,7 +52,8 @@ TEST_CASE("a job: arguments, working folder, progress, result") {
                                   "echo '{\"out\": 7}'\n");
   std::atomic<int> changes = 0;
   JobList list(program, folder.path(), [&] { ++changes; });
-  const int id = list.add("title", {"run", "a b", "$(x)"}, "page.html", "out");
+  const int id =
+      list.add({.title = "title", .words = {"run", "a b", "$(x)"}, .page = "page.html", .out = "out"});
   const Job half = wait_for(list, id, [](const Job& j) { return j.of == 10; });
   CHECK(half.state == Job::State::running);
   CHECK(half.doing == "doing this");
@@ -73,13 +74,13 @@ TEST_CASE("a failed job has an error message, and the next job runs") {
   const fs::path program =
       script(folder.path(), "echo 'faba: note: x' >&2; echo \"faba: error: $1: is wrong$3\" >&2; exit $2\n");
   JobList list(program, folder.path(), [] {});
-  const int bad = list.add("", {"scene", "2"}, "", ""), good = list.add("", {"other", "0"}, "", "");
+  const int bad = list.add({.words = {"scene", "2"}}), good = list.add({.words = {"other", "0"}});
   CHECK(wait_for(list, bad, is_over).error == "scene: is wrong");
   CHECK(wait_for(list, good, is_over).state == Job::State::done);
-  const int usage = list.add("", {"--at", "2", " (see /x/faba run --help)"}, "", "");
+  const int usage = list.add({.words = {"--at", "2", " (see /x/faba run --help)"}});
   CHECK(wait_for(list, usage, is_over).error == "--at: is wrong");
   JobList none(folder.path() / "absent", folder.path(), [] {});
-  CHECK(wait_for(none, none.add("", {}, "", ""), is_over).state == Job::State::failed);
+  CHECK(wait_for(none, none.add(Job()), is_over).state == Job::State::failed);
 }
 
 TEST_CASE("cancel stops the running job with SIGINT and, after a timeout, with SIGKILL") {
@@ -146,7 +147,8 @@ TEST_CASE("ended jobs are listed by the next list in the same workspace, with th
     other.out = "experiments/one/results/drop-2";
     other.page = other.out / "edge.png";
     cleared = list.add(other);
-    const int recording = list.add("recording", {}, "runs/r/report.html", "runs/r");
+    const int recording =
+        list.add({.title = "recording", .words = {}, .page = "runs/r/report.html", .out = "runs/r"});
     wait_for(list, recording, is_over);
     CHECK(list.clear(cleared));
   }

@@ -132,7 +132,8 @@ TEST_CASE("a run that is being written or used by a job is not deleted") {
                          const Error&);
     CHECK_THROWS_AS(lab.runs.rename("one", "two"), const Error&);
   }
-  const int job = lab.jobs.add("compare: one", {"1000", "runs/one"}, "a", "b");
+  const int job =
+      lab.jobs.add({.title = "compare: one", .words = {"1000", "runs/one"}, .page = "a", .out = "b"});
   CHECK_THROWS_WITH_AS(lab.runs.remove("one"), doctest::Contains("the job \"compare: one\" uses this run"),
                        const Error&);
   lab.jobs.cancel(job);

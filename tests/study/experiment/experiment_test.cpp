@@ -44,8 +44,11 @@ TEST_CASE("an experiment file is read with units") {
   REQUIRE(e.videos.size() == 2);
   CHECK(e.videos[0].exposure_s == 120);
   CHECK(e.videos[0].reversal_s == 4);
-  CHECK(um_per_px_of(e, e.videos[0]) == 0.64);
-  CHECK(um_per_px_of(e, e.videos[1]) == 1.2);
+  CHECK(scale_of(e, e.videos[0])->um_per_px == 0.64);
+  CHECK(scale_of(e, e.videos[0])->source == "calibration");
+  CHECK(scale_of(e, e.videos[1])->um_per_px == 1.2);
+  CHECK(scale_of(e, e.videos[1])->source == "typed");
+  CHECK(!scale_of({}, {}));
   CHECK(video_path("/lab/experiments/x/experiment.toml", e.videos[0]) == "/lab/experiments/x/videos/a.mp4");
   CHECK(video_path("/lab/experiments/x/experiment.toml", e.videos[1]) == "/data/b.mp4");
 }

@@ -163,10 +163,8 @@ ActivityJob job_of(const ActivityVerb& v) {
   job.shrink = v.flow.shrink;
   job.fps = v.flow.fps;
   job.threads = v.flow.threads;
-  const auto experiment =
-      v.videos.size() == 1 ? experiment_file(v.videos.front()) : std::optional<std::filesystem::path>();
-  if (experiment || (v.videos.size() == 1 && v.videos.front().extension() == ".toml")) {
-    read_activity_study(experiment.value_or(v.videos.front()), job);
+  if (v.videos.size() == 1 && v.videos.front().extension() == ".toml") {
+    read_activity_study(v.videos.front(), job);
     if (!choice.values.empty()) job.method = flow_part(choice, published_flow());
     if (!v.noise.empty()) {
       job.noise = v.noise;
@@ -214,7 +212,9 @@ void add_activity_options(CLI::App* v, ActivityVerb& o) {
   v->add_option(
        "videos", o.videos,
        "Videos, run directories or flow files; or a study file (TOML) or an experiment that lists them")
-      ->required();
+      ->required()
+      // The folder of an experiment stands for its file.
+      ->transform([](const std::string& path) { return experiment_file(path).value_or(path).string(); });
   add_response_options(v, o.response);
   v->add_option("--reversal", o.reversal,
                 "Time of the field reversal in the video, s; default: as recorded by a run, else unknown")

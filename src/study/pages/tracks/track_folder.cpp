@@ -11,6 +11,7 @@
 #include "core/file.h"
 #include "core/schema.h"
 #include "core/table.h"
+#include "core/table_list.h"
 #include "study/data/sha256.h"
 #include "study/pages/tracks/track_json.h"
 #include "study/pages/tracks/track_output.h"
@@ -50,16 +51,6 @@ Schema<TrackEdit> edit_schema() {
            {.min = 0, .max = kLargestNumber, .doc = "split: first frame of the new track"})
       .add("with", &TrackEdit::with,
            {.min = 0, .max = kLargestNumber, .doc = "join: number of the track that is added"});
-}
-
-template <class T>
-std::vector<T> tables_of(const Node& root, const char* key, const Schema<T>& schema) {
-  std::vector<T> all;
-  if (!root.has(key)) return all;
-  const Node list = root.child(key);
-  if (!list.json->is_array()) list.fail(fmt::format("must be an array of tables; write [[{}]]", key));
-  for (std::size_t i = 0; i < list.json->size(); ++i) all.push_back(schema.parse(list.item(i)));
-  return all;
 }
 
 // Long tracks are in several pieces in the file.
