@@ -5,7 +5,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { address, browser, faba, lab, page, root, step } from './lab_page.mjs';
+import { address, faba, finish, page, root, step } from './lab_page.mjs';
 
 const axe = readFileSync(join(root, 'web/node_modules/axe-core/axe.min.js'), 'utf8');
 const kSettle = 1000; // ms for a page to load its content; pages that poll are never idle
@@ -27,6 +27,7 @@ await page.locator('[data-read="swarm"]').waitFor();
 
 for (const theme of ['light', 'dark']) {
   await step(`no serious violation in the ${theme} theme`, async () => {
+    assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), theme);
     const found = [];
     for (const place of kPlaces) {
       await page.evaluate((h) => (location.hash = h), `#/${place}`);
@@ -40,5 +41,4 @@ for (const theme of ['light', 'dark']) {
   });
 }
 
-await browser.close();
-lab.kill('SIGTERM');
+await finish();

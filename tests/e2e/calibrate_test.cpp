@@ -81,9 +81,7 @@ TEST_CASE("calibrate: two candidates, misspecified and rendered experiments") {
       "study = \"study.toml\"\nlook = \"video\"\nexperiments = 1\n[[misspecified]]\nname = \"field\"\n"
       "field_factor = 0.3\nexperiments = 1\n[[misspecified]]\nname = \"opposite\"\nexperiments = 1\n"
       "second_swarm = 0.4\nset = { \"swarm[1].polarity\" = \"north\" }\ntrue_models = [\"adapted\"]\n");
-  const Called c = faba_in(f.path, "calibrate calibration.toml --json --out out");
-  REQUIRE_MESSAGE(c.exit == 0, c.err);
-  const auto j = c.json();
+  const auto j = json_in(f.path, "calibrate calibration.toml --out out");
   REQUIRE(j["kinds"].size() == 3);
   CHECK(j["kinds"][1]["kind"] == "field");
   CHECK(j["kinds"][2]["misspecified"] == true);
@@ -151,13 +149,12 @@ TEST_CASE("calibrate: one experiment has no standard error, and is too few") {
   const TestFolder f;
   make_design(f);
   write_file(f.path / "calibration.toml", "study = \"study.toml\"\nmodels = [\"basic\"]\nexperiments = 1\n");
-  const Called c = faba_in(f.path, "calibrate calibration.toml --json --out out");
-  REQUIRE_MESSAGE(c.exit == 0, c.err);
-  const auto p = c.json()["models"]["basic"]["parameters"]["swarm[0].model.max_speed"];
+  const auto j = json_in(f.path, "calibrate calibration.toml --out out");
+  const auto p = j["models"]["basic"]["parameters"]["swarm[0].model.max_speed"];
   CHECK(p["bias_sd"]["mean"].is_number());
   CHECK(p["bias_sd"]["se"].is_null());
-  CHECK(c.json()["quality"] == "doubtful");
-  CHECK(c.json()["warnings"][0]["aspect"] == "experiments");
+  CHECK(j["quality"] == "doubtful");
+  CHECK(j["warnings"][0]["aspect"] == "experiments");
 }
 
 TEST_CASE("calibrate: a full disk, an interruption and a second process lose nothing") {

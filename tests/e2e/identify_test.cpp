@@ -176,9 +176,8 @@ TEST_CASE("experiments of one kind: no warning that they differ, unless their in
              study +
                  "[[model]]\ntype = \"dipole\"\nspeed_sd = \"10 um/s\"\n"
                  "free = { \"swarm[0].model.speed\" = [\"10 um/s\", \"200 um/s\"] }\n");
-  const Called c = faba_in(f.path, "identify study.toml --json --out out");
-  REQUIRE_MESSAGE(c.exit == 0, c.err);
-  const auto p = c.json()["models"][0]["parameters"]["swarm[0].model.speed"];
+  const auto p =
+      json_in(f.path, "identify study.toml --out out")["models"][0]["parameters"]["swarm[0].model.speed"];
   CAPTURE(p.dump());
   const auto width = [&](const char* interval) {
     REQUIRE(p[interval].is_array());

@@ -28,9 +28,7 @@ TEST_CASE(
              "simulations = 150\nboundary = 'drop'\n[[video]]\nfile = 'film'\n"
              "[[model]]\ntype = 'basic'\nfree = { 'swarm[0].model.max_speed' = [1, 20] }\n"
              "[[model]]\ntype = 'dipole'\nfree = { 'swarm[0].model.speed' = ['20 um/s', '300 um/s'] }\n");
-  const Called c = faba_in(f.path, "identify study.toml --json --out out");
-  REQUIRE_MESSAGE(c.exit == 0, c.err);
-  const auto j = c.json();
+  const auto j = json_in(f.path, "identify study.toml --out out");
   CHECK(j["evidence"] != "clear");
   bool turning = false;
   for (const auto& w : j.value("warnings", nlohmann::json::array()))

@@ -26,9 +26,7 @@ nlohmann::json tracked(const std::string& microscope) {
                          microscope, kCells, kSpeed));
   const Called run = faba_in(f.path, "run s.toml --seed 4 --out run -q");
   REQUIRE_MESSAGE(run.exit == 0, run.err);
-  const Called c = faba_in(f.path, "track run/video.avi --json");
-  REQUIRE_MESSAGE(c.exit == 0, c.err);
-  return c.json();
+  return json_in(f.path, "track run/video.avi");
 }
 
 void check_truth(const nlohmann::json& j, const char* polarity) {

@@ -1,9 +1,10 @@
-// A live lab in a temporary folder, and a browser with its page, for lab_test.mjs and gallery_test.mjs. With --www FOLDER the page is
-// read from a folder, for development.
+// A live lab in a temporary folder, and a browser with its page, for the browser tests, which end with finish(). With --www FOLDER
+// the page is read from a folder, for development.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { cpSync, mkdirSync, mkdtempSync } from 'node:fs';
+import { once } from 'node:events';
+import { cpSync, mkdirSync, mkdtempSync, rmSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
@@ -49,6 +50,28 @@ const expected = /WebSocket connection|ERR_CONNECTION_REFUSED|401/; // while the
 page.on('console', (m) => m.type() === 'error' && !expected.test(m.text()) && complaints.push(m.text()));
 page.on('pageerror', (e) => complaints.push(String(e)));
 page.on('request', (r) => /^(data|blob):/.test(r.url()) || new URL(r.url()).hostname === '127.0.0.1' || elsewhere.push(r.url()));
+
+/** Exit code of a test with a skipped check and no failure, as in tests/skip.h. */
+const kSkipped = 77;
+const skipped = [];
+/** Marks the test as skipped: ctest does not list it as passed. Other checks still count. */
+export function skip(why) {
+  console.log(`SKIPPED: ${why}`);
+  skipped.push(why);
+}
+/** The end of a test: ends the browser and the server, and removes the workspace. */
+export async function finish() {
+  assert.deepEqual(elsewhere, [], 'requests to other machines');
+  await browser.close();
+  if (lab.exitCode === null && lab.signalCode === null) {
+    const ended = once(lab, 'exit');
+    lab.kill('SIGTERM');
+    await ended; // until then it writes in the workspace
+  }
+  rmSync(workspace, { recursive: true, force: true });
+  if (skipped.length) process.exitCode = kSkipped;
+  console.log(skipped.length ? `all other steps passed; SKIPPED: ${skipped.join('; ')}` : 'all steps passed');
+}
 
 export const shot = async (name) => pictures && page.screenshot({ path: join(pictures, `${name}.png`) });
 export const step = async (what, does) => {

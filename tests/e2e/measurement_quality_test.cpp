@@ -104,9 +104,7 @@ TEST_CASE("activity: a maximum only where something moves in one direction") {
   write_rendered(burst(60), f.path / "one-way.avi");
   write_rendered(burst(360), f.path / "all-ways.avi");
   const auto maximum = [&](const char* name) {
-    const Called c = faba_in(f.path, std::string("activity ") + name + " --json");
-    REQUIRE_MESSAGE(c.exit == 0, c.err);
-    const auto video = c.json()["videos"][0];
+    const auto video = json_in(f.path, std::string("activity ") + name)["videos"][0];
     CHECK(video["gaussian"]["good"].get<bool>() == video["maximum_s"].is_number());
     return video["maximum_s"];
   };

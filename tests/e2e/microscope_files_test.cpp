@@ -96,9 +96,7 @@ TEST_CASE("the pixel size of OME-TIFF and ImageJ TIFF is used by drop and by a r
   for (const Metadata& m : kFiles) {
     write_tiff(f.path / m.name, m.description, m.px_per_unit, 1,
                [](int x, int y, int) { return drop_grey(x, y); });
-    const Called drop = faba_in(f.path, "drop " + m.name + " --json");
-    REQUIRE_MESSAGE(drop.exit == 0, drop.err);
-    check_scale(drop.json(), m);
+    check_scale(json_in(f.path, "drop " + m.name), m);
     const Called run =
         faba_in(f.path, "run s.toml --from-video " + m.name + " --seed 1 --force --out run -q");
     REQUIRE_MESSAGE(run.exit == 0, run.err);
@@ -111,9 +109,7 @@ TEST_CASE("the pixel size and the frame interval of OME-TIFF and ImageJ TIFF are
   for (const Metadata& m : kFiles) {
     write_tiff(f.path / m.name, m.description, m.px_per_unit, kPages, swimming_grey);
     const bool stated = !m.um_per_px.is_null();
-    const Called c = faba_in(f.path, "track " + m.name + (stated ? " --json" : " --fps 20 --json"));
-    REQUIRE_MESSAGE(c.exit == 0, c.err);
-    const auto j = c.json();
+    const auto j = json_in(f.path, "track " + m.name + (stated ? "" : " --fps 20"));
     check_scale(j, m);
     CHECK(j["frame_s"].get<double>() == doctest::Approx(0.05));
     REQUIRE(j["speed"].is_object());

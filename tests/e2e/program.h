@@ -1,4 +1,5 @@
 #pragma once
+#include <doctest/doctest.h>
 #include <sys/wait.h>
 
 #include <cstdio>
@@ -31,6 +32,13 @@ inline Called faba_in(const std::filesystem::path& folder, const std::string& ar
   c.exit = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   c.err = read_file(err);
   return c;
+}
+
+/// The object that `faba ARGUMENTS --json` prints; the test case fails here if the program does.
+inline nlohmann::json json_in(const std::filesystem::path& folder, const std::string& arguments) {
+  const Called c = faba_in(folder, arguments + " --json");
+  REQUIRE_MESSAGE(c.exit == 0, c.err);
+  return c.json();
 }
 
 /// Whether `text` is a single line that starts with "faba: error: ".

@@ -6,7 +6,7 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { address, browser, complaints, context, faba, kJobPatience, lab, page, program, shot, step, until, workspace } from './lab_page.mjs';
+import { address, complaints, context, faba, finish, kJobPatience, page, program, shot, step, until, workspace } from './lab_page.mjs';
 
 const run = (...words) => execFileSync(program, words, { cwd: workspace, stdio: ['ignore', 'ignore', 'ignore'] });
 run('run', 'scenes/short-response.toml', '--seed', '3', '--out', 'runs/short-response');
@@ -235,5 +235,4 @@ await step('the best model opens in the lab, and is compared with the video', as
   assert.match(await page.evaluate(() => location.hash), /compared/);
 });
 
-await browser.close();
-lab.kill('SIGTERM');
+await finish();

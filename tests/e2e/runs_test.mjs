@@ -6,7 +6,7 @@
 import assert from 'node:assert/strict';
 import { cpSync, existsSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { address, browser, complaints, elsewhere, faba, kJobPatience, lab, page, panel, serveAgain, shot, step, tab, until, workspace } from './lab_page.mjs';
+import { address, complaints, faba, finish, kJobPatience, lab, page, panel, serveAgain, shot, step, tab, until, workspace } from './lab_page.mjs';
 
 const runs = join(workspace, 'runs');
 const row = (name) => page.locator(`tr[data-run="${name}"]`);
@@ -130,7 +130,7 @@ await step('a run is replayed: one cursor for picture and plots', async () => {
   const all = await cursors();
   assert.ok(all.length >= 4 && Math.max(...all) - Math.min(...all) < 1.5, `cursors at ${all}`);
   // The picture is that of this time: the clock in it cannot be read, but it changes with the frame.
-  const picture = () => page.locator('.picture canvas').first().evaluate((c) => c.toDataURL().length);
+  const picture = () => page.locator('.picture canvas').first().evaluate((c) => c.toDataURL());
   await page.waitForTimeout(300);
   const one = await picture();
   await slider.fill('5');
@@ -191,7 +191,7 @@ await step('record and stop: a part of the run is saved', async () => {
   await page.getByRole('button', { name: 'Steer a swarm along a route' }).click();
   await page.getByRole('button', { name: 'Close' }).click();
   const elapsed = async () => Number((await page.locator('.transport time').textContent()).match(/[\d.]+/)[0]);
-  await page.waitForTimeout(500);
+  await until(() => page.evaluate(() => document.querySelector('canvas.over')?.lab?.series.newest('t_s') > 0.3), 'the run is at 0.3 s');
   await page.getByRole('button', { name: /Record$/ }).click();
   await until(async () => (await elapsed()) > 0.5, 'the elapsed time is shown');
   await page.reload();
@@ -204,10 +204,9 @@ await step('record and stop: a part of the run is saved', async () => {
   await panel('Jobs');
   const job = page.locator('.panel li').first();
   await job.getByText('done', { exact: true }).waitFor({ timeout: kJobPatience });
-  const m = manifest('Part'), hash = /\(([0-9a-f]+)\)/.exec(await job.textContent())?.[1];
+  const m = manifest('Part');
   assert.ok(m.recorded_s[0] > 0.3 && m.recorded_s[1] - m.recorded_s[0] > 1, `recorded from ${m.recorded_s}`);
   assert.ok(Math.abs(m.duration_s - (m.recorded_s[1] - m.recorded_s[0])) < 1e-6);
-  assert.ok(hash === undefined || hash === m.state_hash);
   const [, first] = readFileSync(join(runs, 'Part/series.csv'), 'utf8').split('\n').map((l) => l.split(','));
   assert.ok(Math.abs(Number(first[1]) - m.recorded_s[0]) < 1e-6, `the first row is at ${first[1]} s`);
   // The same as in a recording from the beginning.
@@ -304,7 +303,4 @@ await step('what a killed lab has left in the trash is removed at the next start
   complaints.length = 0;
 });
 
-assert.deepEqual(elsewhere, [], 'requests to other machines');
-await browser.close();
-rmSync(workspace, { recursive: true, force: true });
-console.log('all steps passed');
+await finish();

@@ -5,19 +5,20 @@
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync } from 'node:fs';
+import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { address, browser, complaints, elsewhere, faba, kJobPatience, lab, page, program, read, shot, step, until, workspace } from './lab_page.mjs';
+import { address, complaints, faba, finish, kJobPatience, page, program, read, shot, step, until, workspace } from './lab_page.mjs';
 
 const csv = (file) => readFileSync(join(workspace, file), 'utf8');
 const dataLines = (text) => text.trim().split('\n').filter((l) => !l.startsWith('#')).slice(1);
 const numberOf = async (what) => (await read(what))[0];
 const used = () => numberOf('used');
 let folder = '';
-/** The console lists requests that were refused as expected. */
-async function forgetRefusals() {
-  await page.waitForTimeout(300);
-  complaints.splice(0, complaints.length, ...complaints.filter((c) => !/status of 4\d\d/.test(c)));
+/** The console lists `count` requests that were refused as expected. */
+async function forgetRefusals(count) {
+  const isRefusal = (c) => /status of 4\d\d/.test(c);
+  await until(() => complaints.filter(isRefusal).length === count, `${count} refusals on the console`);
+  complaints.splice(0, complaints.length, ...complaints.filter((c) => !isRefusal(c)));
 }
 
 await step('a video is selected', async () => {
@@ -162,7 +163,7 @@ await step('a change of another page is not overwritten', async () => {
   assert.equal((await send(page, {}, first.revision)).status, 422);
   assert.match(csv(`${folder}/edits.toml`), /min = 25/);
   await other.close();
-  await forgetRefusals();
+  await forgetRefusals(1);
 });
 
 await step('files outside of the workspace are refused', async () => {
@@ -171,7 +172,7 @@ await step('files outside of the workspace are refused', async () => {
     return [await post('/api/tracks/detect', { file: '../x.mp4', frame: 0 }), await post('/api/tracks', { file: '/etc/passwd' }), await fetch('/api/tracks/file/tracks.csv?folder=..').then((r) => r.status), await fetch('/api/tracks/file/..%2Fscenario.toml?folder=seen').then((r) => r.status)];
   });
   for (const s of status) assert.ok(s >= 400 && s < 500, String(status));
-  await forgetRefusals();
+  await forgetRefusals(status.length);
 });
 
 await step('Portuguese, dark theme, small screen', async () => {
@@ -184,9 +185,4 @@ await step('Portuguese, dark theme, small screen', async () => {
   await shot('phone');
 });
 
-assert.deepEqual(elsewhere, [], 'requests to other machines');
-await browser.close();
-lab.removeAllListeners('exit');
-lab.kill('SIGTERM');
-rmSync(workspace, { recursive: true, force: true });
-console.log('all steps passed');
+await finish();

@@ -17,7 +17,7 @@ namespace {
 /// A workspace with the run runs/one of 1500 bytes, and its scenario beside it.
 struct Lab {
   test::TemporaryFolder folder{"trash"};
-  fs::path root = folder.path() / "work";
+  fs::path root = folder.path() / "lab";
   Workspace workspace;
 
   Lab() : workspace(made(root), {}) {}
@@ -102,7 +102,7 @@ TEST_CASE("links are neither deleted nor followed") {
     Trash trash(lab.workspace);
     CHECK_THROWS_WITH_AS(trash.take("runs/same"), doctest::Contains("is a link"), const Error&);
     for (const char* bad :
-         {"runs/out", "runs/out/kept.txt", "../work/runs/one", "runs/../runs/one", "/etc", ""})
+         {"runs/out", "runs/out/kept.txt", "../lab/runs/one", "runs/../runs/one", "/etc", ""})
       CHECK_THROWS_AS(trash.take(bad), const Error&);
     CHECK_THROWS_WITH_AS(trash.take("runs/none"), doctest::Contains("not found"), const Error&);
     CHECK(trash.take("runs/one").bytes == 1500);

@@ -11,11 +11,11 @@ namespace fs = std::filesystem;
 
 TEST_CASE("S6: names outside of the workspace are refused") {
   test::TemporaryFolder folder("workspace");
-  const fs::path root = folder.path() / "work";
+  const fs::path root = folder.path() / "lab";
   fs::create_directories(root / "runs" / "one");
-  fs::create_directories(folder.path() / "work-beside");
+  fs::create_directories(folder.path() / "lab-beside");
   write_file(folder.path() / "secret.txt", "s");
-  write_file(folder.path() / "work-beside" / "secret.txt", "s");
+  write_file(folder.path() / "lab-beside" / "secret.txt", "s");
   write_file(root / "runs" / "one" / "series.csv", "x");
   write_file(root / ".hidden", "s");
   fs::create_symlink(folder.path() / "secret.txt", root / "runs" / "link.txt");
@@ -29,7 +29,7 @@ TEST_CASE("S6: names outside of the workspace are refused") {
   for (const std::string& bad :
        {std::string(), std::string("../secret.txt"), std::string("runs/../../secret.txt"),
         std::string("/etc/passwd"), (folder.path() / "secret.txt").string(), std::string("runs/link.txt"),
-        std::string("runs/out/secret.txt"), std::string("runs/out"), std::string("../work-beside/secret.txt"),
+        std::string("runs/out/secret.txt"), std::string("runs/out"), std::string("../lab-beside/secret.txt"),
         std::string(".hidden"), std::string("runs/.."), std::string("runs/./one"), std::string("a\0b", 3),
         std::string(5000, 'a'), std::string("~/x/../../..")}) {
     INFO(bad.substr(0, 60));
@@ -45,7 +45,7 @@ TEST_CASE("S6: names outside of the workspace are refused") {
 
 TEST_CASE("S6: a scenario of a page cannot refer to files outside of the workspace") {
   test::TemporaryFolder folder("workspace");
-  const fs::path root = folder.path() / "work";
+  const fs::path root = folder.path() / "lab";
   fs::create_directories(root / "scenes");
   fs::create_directories(root / "rigs");
   write_file(root / "rigs/r.toml", "");
@@ -97,7 +97,7 @@ TEST_CASE("without scenes in the workspace, the gallery of the program is used")
 
 TEST_CASE("S6: allowed folders can be read, and nothing beside them") {
   test::TemporaryFolder folder("allowed");
-  const fs::path root = folder.path() / "work", data = folder.path() / ".data";
+  const fs::path root = folder.path() / "lab", data = folder.path() / ".data";
   for (const fs::path& dir : {root, data / "sub", folder.path() / "other"}) fs::create_directories(dir);
   for (const fs::path& file :
        {data / "a.avi", data / "sub/b.avi", data / ".hidden.avi", folder.path() / "other/c.avi"})
@@ -122,7 +122,7 @@ TEST_CASE("S6: allowed folders can be read, and nothing beside them") {
 
 TEST_CASE("S6: pictures are kept in the workspace, and never replace a file") {
   test::TemporaryFolder folder("workspace");
-  const fs::path root = folder.path() / "work";
+  const fs::path root = folder.path() / "lab";
   fs::create_directories(root / "scenes");
   write_file(folder.path() / "upload", "picture");
   const Workspace w(root, {});

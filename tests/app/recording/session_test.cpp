@@ -41,6 +41,21 @@ RunOptions options(const std::filesystem::path& out, unsigned threads = 1) {
 
 std::string state_hash(const Session& s) { return s.manifest().simulated->state_hash; }
 
+/// Begins a run and stops it after frame `last`.
+struct Stopped {
+  Stopped(const Scenario& scene, std::uint64_t last, const std::filesystem::path& out) {
+    std::atomic<bool> stop{false};
+    RunOptions o = options(out);
+    o.stop = &stop;
+    o.progress = [&](std::uint64_t done, std::uint64_t) { stop = done == last; };
+    Session s = Session::begin(scene, 7, o);
+    complete = s.run();
+    frames = s.manifest().frames;
+  }
+  bool complete = false;
+  std::uint64_t frames = 0;  ///< recorded
+};
+
 }  // namespace
 
 TEST_CASE("a complete run directory has all files and no marker") {
@@ -123,15 +138,9 @@ TEST_CASE("a run that records a part, stopped before and in the part and resumed
   for (const std::uint64_t stop_at : {5u, 40u}) {
     INFO("stopped after frame ", stop_at);
     const auto dir = f.path / ("stopped-" + std::to_string(stop_at));
-    {
-      std::atomic<bool> stop{false};
-      RunOptions o = options(dir);
-      o.stop = &stop;
-      o.progress = [&](std::uint64_t done, std::uint64_t) { stop = done == stop_at; };
-      Session s = Session::begin(scene, 7, o);
-      CHECK_FALSE(s.run());
-      CHECK(s.manifest().frames == (stop_at < 20 ? 0 : stop_at - 20));
-    }
+    const Stopped stopped(scene, stop_at, dir);
+    CHECK_FALSE(stopped.complete);
+    CHECK(stopped.frames == (stop_at < 20 ? 0 : stop_at - 20));
     Session resumed = Session::resume(builtin_parts(), options(dir));
     REQUIRE(resumed.run());
     CHECK(state_hash(resumed) == state_hash(complete));
@@ -205,14 +214,7 @@ TEST_CASE("R5: a run stopped after any frame and resumed has the same files as a
   for (const std::uint64_t stop_at : {1u, 7u, 40u, 79u, 80u}) {
     INFO("stopped after frame ", stop_at);
     const auto dir = f.path / ("stopped-" + std::to_string(stop_at));
-    {
-      std::atomic<bool> stop{false};
-      RunOptions o = options(dir);
-      o.stop = &stop;
-      o.progress = [&](std::uint64_t done, std::uint64_t) { stop = done == stop_at; };
-      Session s = Session::begin(scene, 7, o);
-      CHECK(s.run() == (stop_at == 80));
-    }
+    CHECK(Stopped(scene, stop_at, dir).complete == (stop_at == 80));
     CHECK(std::filesystem::exists(dir / "incomplete"));
     Session resumed =
         Session::resume(builtin_parts(), options(dir, 2));  // with a different number of threads
@@ -245,13 +247,7 @@ count = 60
 )");
   Session complete = Session::begin(scene, 7, options(f.path / "complete"));
   REQUIRE(complete.run());
-  {
-    std::atomic<bool> stop{false};
-    RunOptions o = options(f.path / "cut");
-    o.stop = &stop;
-    o.progress = [&](std::uint64_t done, std::uint64_t) { stop = done == 9; };
-    CHECK_FALSE(Session::begin(scene, 7, o).run());
-  }
+  CHECK_FALSE(Stopped(scene, 9, f.path / "cut").complete);
   Session resumed = Session::resume(builtin_parts(), options(f.path / "cut", 2));
   REQUIRE(resumed.run());
   CHECK(state_hash(resumed) == state_hash(complete));

@@ -126,6 +126,8 @@ TEST_CASE("directions of a page are turned for the study file") {
         {"model", {{{"type", "dipole"}, {"free", {{"swarm[0].model.speed", {"20 um/s", "300 um/s"}}}}}}}}}};
   // The file is not a video: the estimate of the work reports it after the study was read.
   CHECK(p.error(kIdentify, asked).find("a.mp4") != std::string::npos);
+  write_file(p.folder.path() / "videos/a.mp4", "P5\n2 2\n255\nabcd");  // a picture is the smallest video
+  CHECK(p.compose(kIdentify, asked).toml.find("direction = \"270 deg\"") != std::string::npos);  // up
   asked["study"]["video"][0]["direction"] = "500 deg";
   CHECK(p.error(kIdentify, asked).starts_with("video[0].direction: 500 deg is out of range"));
 }

@@ -31,6 +31,16 @@ Job wait_for(const JobList& list, int id, const std::function<bool(const Job&)>&
   return {};
 }
 
+/// A list of jobs whose program is a shell script, in its folder.
+struct Jobs {
+  explicit Jobs(const std::string& text) : list(script(folder.path(), text), folder.path(), [] {}) {}
+  int add(const std::string& word) { return list.add({.words = {word}}); }
+  fs::path file(const char* name) const { return folder.path() / name; }
+
+  test::TemporaryFolder folder{"jobs"};
+  JobList list;
+};
+
 }  // namespace
 
 TEST_CASE("a job: arguments, working folder, progress, result") {
@@ -74,46 +84,43 @@ TEST_CASE("a failed job has an error message, and the next job runs") {
 }
 
 TEST_CASE("cancel stops the running job with SIGINT and, after a timeout, with SIGKILL") {
-  test::TemporaryFolder folder("jobs");
-  const fs::path program = script(folder.path(),
-                                  "trap 'echo stopped > stopped; exit 130' INT\n"
-                                  "[ \"$1\" = ignores ] && trap '' INT\n"
-                                  "echo > started\nfor i in $(seq 1000); do sleep 0.05; done\n");
-  JobList list(program, folder.path(), [] {});
-  const int first = list.add({.words = {"x"}}), waiting = list.add({.words = {"y"}});
-  wait_for(list, first, [&](const Job&) { return fs::exists(folder.path() / "started"); });
+  Jobs jobs(
+      "trap 'echo stopped > stopped; exit 130' INT\n"
+      "[ \"$1\" = ignores ] && trap '' INT\n"
+      "echo > started\nfor i in $(seq 1000); do sleep 0.05; done\n");
+  JobList& list = jobs.list;
+  const int first = jobs.add("x"), waiting = jobs.add("y");
+  wait_for(list, first, [&](const Job&) { return fs::exists(jobs.file("started")); });
   CHECK(list.cancel(waiting));
   CHECK(list.cancel(first));
   CHECK_FALSE(list.cancel(99));
   CHECK(wait_for(list, first, is_over).state == Job::State::cancelled);
   CHECK(wait_for(list, waiting, is_over).state == Job::State::cancelled);
-  CHECK(fs::exists(folder.path() / "stopped"));
-  fs::remove(folder.path() / "started");
-  const int ignores = list.add({.words = {"ignores"}});
-  wait_for(list, ignores, [&](const Job&) { return fs::exists(folder.path() / "started"); });
+  CHECK(fs::exists(jobs.file("stopped")));
+  fs::remove(jobs.file("started"));
+  const int ignores = jobs.add("ignores");
+  wait_for(list, ignores, [&](const Job&) { return fs::exists(jobs.file("started")); });
   list.cancel(ignores);
   CHECK(wait_for(list, ignores, is_over).state == Job::State::cancelled);
 }
 
 TEST_CASE("the queue: a job moves to the front, and an ended one starts again or leaves the list") {
-  test::TemporaryFolder folder("jobs");
-  const fs::path program = script(folder.path(),
-                                  "echo \"$1\" >> order\n"
-                                  "[ \"$1\" = first ] && while [ ! -e go ]; do sleep 0.02; done\n"
-                                  "[ \"$1\" = bad ] && [ ! -e mended ] && exit 1\nexit 0\n");
-  JobList list(program, folder.path(), [] {});
-  const int first = list.add({.words = {"first"}}), bad = list.add({.words = {"bad"}}),
-            last = list.add({.words = {"last"}});
+  Jobs jobs(
+      "echo \"$1\" >> order\n"
+      "[ \"$1\" = first ] && while [ ! -e go ]; do sleep 0.02; done\n"
+      "[ \"$1\" = bad ] && [ ! -e mended ] && exit 1\nexit 0\n");
+  JobList& list = jobs.list;
+  const int first = jobs.add("first"), bad = jobs.add("bad"), last = jobs.add("last");
   wait_for(list, first, [](const Job& j) { return j.state == Job::State::running; });
   CHECK(list.move_to_front(last));
   CHECK_FALSE(list.move_to_front(first));  // it is running
   CHECK_FALSE(list.move_to_front(99));
   CHECK_FALSE(list.start_again(bad));
   CHECK_FALSE(list.clear(bad));
-  write_file(folder.path() / "go", "");
+  write_file(jobs.file("go"), "");
   CHECK(wait_for(list, bad, is_over).state == Job::State::failed);
-  CHECK(read_file(folder.path() / "order") == "first\nlast\nbad\n");
-  write_file(folder.path() / "mended", "");
+  CHECK(read_file(jobs.file("order")) == "first\nlast\nbad\n");
+  write_file(jobs.file("mended"), "");
   CHECK(list.start_again(bad));
   CHECK(wait_for(list, bad, is_over).state == Job::State::done);
   CHECK_FALSE(list.start_again(bad));  // it is done

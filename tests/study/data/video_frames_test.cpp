@@ -143,8 +143,11 @@ TEST_CASE("a histogram counts the finite grey values, and its quantiles leave ou
   const GreyHistogram h = grey_histogram(picture);
   CHECK(h.least == 0);
   CHECK(h.most == 60000);
-  CHECK(h.low == doctest::Approx(1).epsilon(1));
-  CHECK(h.high == doctest::Approx(998).epsilon(0.002));
+  // Ten of the 9999 values are 0, and ten are 999: the quantiles of 0.1 % and 99.9 % are beside these.
+  CHECK(h.low >= 0);
+  CHECK(h.low <= 1);
+  CHECK(h.high >= 998);
+  CHECK(h.high <= 999);
   std::int64_t all = 0;
   for (const std::int64_t n : h.counts) all += n;
   CHECK(all == 9999);
