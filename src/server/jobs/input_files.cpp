@@ -8,7 +8,6 @@
 #include "app/scenario/file_kind.h"
 #include "core/error.h"
 #include "study/data/run_video.h"
-#include "study/data/video_facts.h"
 #include "study/experiment/experiment.h"
 
 namespace faba {
@@ -153,15 +152,6 @@ Json input_files(const Workspace& workspace) {
   });
   if (search.found.size() > kMostListed) search.found.resize(kMostListed);
   return search.found;
-}
-
-Json facts_of_input(const Workspace& workspace, const std::string& file) {
-  const VideoFacts f = video_facts(workspace.existing(file));
-  return {{"width", f.width},
-          {"height", f.height},
-          {"fps", f.fps},
-          {"frames", f.frames},
-          {"duration_s", f.duration_s()}};
 }
 
 }  // namespace faba
