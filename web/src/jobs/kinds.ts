@@ -122,14 +122,6 @@ export function queueTimes(jobs: Job[]): Map<number, QueueTime> {
   return times;
 }
 
-/** A file size as text: "12 MB". */
-export function fileSize(bytes: number): string {
-  const units = ['B', 'kB', 'MB', 'GB', 'TB'];
-  let i = 0, v = bytes;
-  for (; v >= 999.5 && i + 1 < units.length; ++i) v /= 1000;
-  return `${i === 0 || v >= 100 ? Math.round(v) : Number(v.toPrecision(2))} ${units[i]}`;
-}
-
 /** A number of a scenario with its path, "swarm[0].model.speed". */
 export interface NumberPath {
   path: string;
