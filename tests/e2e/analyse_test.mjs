@@ -81,7 +81,7 @@ await step('activity: missing values are reported, the time is estimated, and a 
   await pick(/^Videos/, 'videos/one');
   await page.getByText(/640 × 480 px/).waitFor();
   await page.locator('[data-read=estimate]', { hasText: 'assumed' }).waitFor();
-  const direction = page.getByLabel('Swimming direction after the reversal');
+  const direction = page.getByRole('textbox', { name: 'Swimming direction after the reversal' });
   await direction.fill('400');
   await page.getByText('must be at most').waitFor();
   await direction.fill('90');
@@ -260,7 +260,7 @@ await step('identify: a study is composed from the schema, and the terminal can 
   await refused('Save and start', 'Choose at least one video.');
   await pick(/^Videos/, 'runs/seen');
   await refused('Save and start', 'Add at least one model with a free parameter.');
-  await page.getByLabel('Swimming direction after the reversal').fill('0');
+  await page.getByRole('textbox', { name: 'Swimming direction after the reversal' }).fill('0');
   await page.getByLabel('Reversal reversal', { exact: true }).fill('0.2 s');
   await page.getByRole('group', { name: 'Add a model' }).getByRole('button', { name: 'dipole' }).click();
   await page.getByRole('button', { name: 'Remove speed', exact: true }).waitFor(); // a quantity with a unit; it is the first free parameter

@@ -152,6 +152,31 @@ await step('the scale is measured in a picture of a ruler', async () => {
   assert.match(toml(), /um_per_px_source = "calibration"/);
 });
 
+await step('an error is beside its value, and a removed drop is reported', async () => {
+  const row = page.locator('tbody tr').first();
+  await field('To', 'drop-A-0.avi').fill('18 s');
+  await field('To', 'drop-A-0.avi').press('Tab');
+  await row.getByRole('alert').getByText('is not later than').waitFor();
+  assert.match(complaints.splice(0).join(), /422/);
+  await field('To', 'drop-A-0.avi').fill('');
+  await field('To', 'drop-A-0.avi').press('Tab');
+  await row.getByRole('alert').waitFor({ state: 'detached' });
+  await page.getByRole('button', { name: 'Remove: B', exact: true }).click();
+  await page.getByText('Videos without a drop: drop-B-0.avi, ').waitFor();
+  assert.equal(await page.locator('.drops li').count(), 1);
+  await page.getByRole('button', { name: 'Undo', exact: true }).click();
+  await page.getByText('Videos without a drop').waitFor({ state: 'detached' });
+  assert.equal(await page.locator('.drops li').count(), 2);
+});
+
+await step('the viewer has the scale and the field reversal of the experiment', async () => {
+  await page.getByRole('link', { name: 'View drop-A-0.avi' }).click();
+  await page.getByText(/ · [\d.]+ µm\/px/).waitFor();
+  assert.equal(await page.getByRole('spinbutton', { name: 'Field reversal' }).inputValue(), '20');
+  await page.goBack();
+  await page.getByRole('heading', { name: 'Videos' }).waitFor();
+});
+
 await step('two pages change one experiment', async () => {
   const other = await context.newPage();
   await other.goto(page.url());

@@ -1,4 +1,4 @@
-// Units of lengths and currents in the readouts and plots.
+// Units of lengths and currents in the readouts and plots, and sizes of files.
 
 export type LengthChoice = 'um' | 'px';
 export interface LengthUnit {
@@ -23,4 +23,12 @@ export function currentText(amperes: number): string {
   if (Math.abs(milliamperes) >= 999.5) return `${minus(amperes.toFixed(2))} A`;
   const text = milliamperes.toFixed(Math.abs(milliamperes) < 9.95 ? 1 : 0);
   return `${minus(Number(text) === 0 ? '0' : text)} mA`;
+}
+
+/** "12.4 MB" with decimal prefixes, as file managers have. */
+export function bytesText(bytes: number): string {
+  const units = ['B', 'kB', 'MB', 'GB', 'TB'];
+  let k = 0, v = bytes;
+  while (v >= 999.5 && k < units.length - 1) (v /= 1000), ++k;
+  return `${k === 0 || v >= 99.95 ? v.toFixed(0) : v >= 9.995 ? v.toFixed(1) : v.toFixed(2)} ${units[k]}`;
 }

@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { inverse, mayPropose, nextDropName, proposedExposures, swimmingDirection, valueAt, type Experiment } from '../src/pages/experiments/experiment';
+import { inverse, mayPropose, nextDropName, proposedExposures, refusalOf, swimmingDirection, valueAt, type Experiment } from '../src/pages/experiments/experiment';
 
 const experiment: Experiment = {
   title: 'x',
@@ -33,6 +33,13 @@ describe('an experiment', () => {
     expect(proposedExposures(videos, { a: 1100, b: 1300, c: 1500, d: 0 })).toEqual([{ path: ['video', 'b', 'exposure'], to: '300 s' }]);
     expect(mayPropose([{ file: 'a' }])).toBe(false);
     expect(proposedExposures([{ file: 'a' }, { file: 'b' }], { a: 1000, b: 2000 })).toEqual([]);
+  });
+  test('an error is about one value of an item, or about the item', () => {
+    expect(refusalOf({ where: 'video[1].exposure', what: '-1 s is below the minimum' })).toEqual({ list: 'video', index: 1, key: 'exposure' });
+    expect(refusalOf({ where: 'video[0]', what: 'to = 3 s is not later than from = 4 s' })).toEqual({ list: 'video', index: 0, key: 'to' });
+    expect(refusalOf({ where: 'drop[1]', what: 'name = "A" is used by another drop' })).toEqual({ list: 'drop', index: 1, key: 'name' });
+    expect(refusalOf({ where: 'drop[1]', what: 'key "name" is missing' })).toBeNull();
+    expect(refusalOf({ where: 'um_per_px', what: '0 is below the minimum' })).toBeNull();
   });
   test('names of drops', () => {
     expect(nextDropName([])).toBe('A');

@@ -1,7 +1,8 @@
 import { describe, expect, it } from 'vitest';
 import { words } from '../src/i18n';
-import { aboutTime, accepted, factsText, fileSize, givenValues, missingInputs, numberPaths, queueTimes, steps, timeLeft, type InputFile, type KindInfo } from '../src/jobs/kinds';
+import { aboutTime, accepted, givenValues, missingInputs, numberPaths, queueTimes, steps, timeLeft, type InputFile, type KindInfo } from '../src/jobs/kinds';
 import type { Job } from '../src/lab.svelte';
+import { factsText } from '../src/video/facts.svelte';
 
 const say = words('en');
 const job = (over: Partial<Job>): Job => ({ id: 1, title: '', words: [], page: '', out: '', kind: 'activity', estimate_s: 0, state: 'waiting', doing: '', done: 0, of: 0, seconds: 0, error: '', ...over });
@@ -54,9 +55,8 @@ describe('files of an input', () => {
     expect(accepted(files, 'study', 'identify', 'step z').length).toBe(0);
   });
   it('have a size and a length as text', () => {
-    expect([0, 999, 1500, 12_340_000, 3.2e9].map(fileSize)).toEqual(['0 B', '999 B', '1.5 kB', '12 MB', '3.2 GB']);
-    expect(factsText({ width: 640, height: 480, fps: 15, frames: 45, duration_s: 3 })).toBe('640 × 480 px, 15 Hz, 3 s');
-    expect(factsText({ width: 640, height: 480, fps: 0, frames: 1, duration_s: 0 })).toBe('640 × 480 px');
+    expect(factsText({ width: 640, height: 480, fps: 15, frames: 45, length_s: 3 })).toBe('640 × 480 px, 15 Hz, 3 s');
+    expect(factsText({ width: 640, height: 480, fps: 0, frames: 1, length_s: 0 })).toBe('640 × 480 px');
   });
 });
 

@@ -1,6 +1,7 @@
 import { describe, expect, test } from 'vitest';
 import { kWords } from '../src/i18n';
-import { bytesText, columnWord, dateText, durationText, errorText, found, kColumns, sorted, tagsOf, type RunCard } from '../src/pages/runs/run_list';
+import { columnWord, dateText, durationText, errorText, found, kColumns, sorted, tagsOf, type RunCard } from '../src/pages/runs/run_list';
+import { bytesText } from '../src/units';
 
 const run = (name: string, more: Partial<RunCard> = {}): RunCard => ({
   name,

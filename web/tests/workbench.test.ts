@@ -50,6 +50,7 @@ describe('keys', () => {
     expect(keyAction(key(' ', { target: { tagName: 'BUTTON' } }), true)).toBeNull();
     expect(keyAction(key('r', { target: { tagName: 'BUTTON' } }), true)).toBe('reverse');
     expect(keyAction(key('r', { target: { tagName: 'INPUT', type: 'checkbox' } }), true)).toBe('reverse');
+    expect(['ArrowUp', 'r'].map((k) => keyAction(key(k, { target: { tagName: 'INPUT', type: 'range' } }), true))).toEqual([null, 'reverse']);
   });
   test('of a page without control change the view only', () => {
     expect(['f', '+', '?', ' ', 'r', 'ArrowUp'].map((k) => keyAction(key(k), false))).toEqual(['fit', 'in', 'help', null, null, null]);

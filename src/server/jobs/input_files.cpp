@@ -9,7 +9,6 @@
 #include "server/file_kinds.h"
 #include "server/file_time.h"
 #include "study/data/run_video.h"
-#include "study/data/video_facts.h"
 #include "study/experiment/experiment.h"
 
 namespace faba {
@@ -125,15 +124,6 @@ Json input_files(const Workspace& workspace) {
   });
   if (search.found.size() > kMostListed) search.found.resize(kMostListed);
   return search.found;
-}
-
-Json facts_of_input(const Workspace& workspace, const std::string& file) {
-  const VideoFacts f = video_facts(workspace.existing(file));
-  return {{"width", f.width},
-          {"height", f.height},
-          {"fps", f.fps},
-          {"frames", f.frames},
-          {"duration_s", f.duration_s()}};
 }
 
 }  // namespace faba

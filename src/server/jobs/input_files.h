@@ -10,8 +10,4 @@ namespace faba {
 /// not searched.
 Json input_files(const Workspace& workspace);
 
-/// Facts about a video or picture: "width", "height", "fps", "frames", "duration_s" (0: not stated). Throws
-/// Error(input).
-Json facts_of_input(const Workspace& workspace, const std::string& file);
-
 }  // namespace faba

@@ -5,7 +5,6 @@
 #include "app/recording/session.h"
 #include "app/scenario/read_scenario.h"
 #include "app/sinks/drawn_swarm.h"
-#include "study/data/run_video.h"
 #include "vision/files/picture.h"
 #include "vision/files/video_reader.h"
 
@@ -26,27 +25,6 @@ void reduce_cost(Scenario& s) {
       swarm.params.count = std::max<std::uint64_t>(1, swarm.params.count * kMaxCells / all);
   s.record = {};
   s.events.clear();
-}
-
-// Means over squares, so that the longer side has at most `side` px.
-RgbImage reduced(const RgbImage& from, int side) {
-  const int block = (std::max(from.width, from.height) + side - 1) / side;
-  if (block <= 1) return from;
-  RgbImage to(std::max(1, from.width / block), std::max(1, from.height / block));
-  for (int y = 0; y < to.height; ++y)
-    for (int x = 0; x < to.width; ++x) {
-      int sum[3] = {0, 0, 0}, n = 0;
-      for (int j = y * block; j < std::min(from.height, (y + 1) * block); ++j)
-        for (int i = x * block; i < std::min(from.width, (x + 1) * block); ++i) {
-          const Rgb p = from.at(i, j);
-          sum[0] += p.r;
-          sum[1] += p.g;
-          sum[2] += p.b;
-          ++n;
-        }
-      to.at(x, y) = {std::uint8_t(sum[0] / n), std::uint8_t(sum[1] / n), std::uint8_t(sum[2] / n)};
-    }
-  return to;
 }
 
 }  // namespace
@@ -78,10 +56,6 @@ void write_run_thumbnail(const std::filesystem::path& run, const std::filesystem
     return write_png(png, picture);
   }
   write_scene_thumbnail(read_scenario(read_toml(run / run_files::kScenario), builtin_parts()), png);
-}
-
-void write_frame_thumbnail(const std::filesystem::path& video, const std::filesystem::path& png, int side) {
-  write_png(png, reduced(read_displayed(run_video(video).file), side));
 }
 
 }  // namespace faba

@@ -12,8 +12,4 @@ void write_scene_thumbnail(Scenario s, const std::filesystem::path& png);
 /// Writes a PNG of a recorded run: a frame of its video at 2 s, or of its scene when it has no video.
 void write_run_thumbnail(const std::filesystem::path& run, const std::filesystem::path& png);
 
-/// Writes a PNG of the first frame of a video, a picture or the video of a run directory; the longer side has
-/// at most `side` px. Throws Error(input).
-void write_frame_thumbnail(const std::filesystem::path& video, const std::filesystem::path& png, int side);
-
 }  // namespace faba

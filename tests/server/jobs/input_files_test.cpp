@@ -55,13 +55,3 @@ TEST_CASE("the files of a workspace by kind; hidden files, links and drawings ar
   CHECK(of["experiments/one"]["title"] == "One");
   CHECK(of["runs/a"]["run"] == true);
 }
-
-TEST_CASE("facts are read of files inside the workspace only") {
-  test::TemporaryFolder folder("inputs");
-  write_file(folder.path() / "a.pgm", std::string("P5\n4 3\n255\n") + std::string(12, 'x'));
-  const Workspace w(folder.path(), {});
-  CHECK(facts_of_input(w, "a.pgm")["width"] == 4);
-  CHECK(facts_of_input(w, "a.pgm")["height"] == 3);
-  for (const char* name : {"../a.pgm", "/etc/passwd", "none", ""})
-    CHECK_THROWS_AS(facts_of_input(w, name), Error);
-}

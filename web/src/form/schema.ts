@@ -71,6 +71,12 @@ export function amount(v: any, unit: string): number | null {
   return typeof q === 'number' ? q : null;
 }
 
+/** An angle, degrees; a number is in rad. */
+export function degrees(value: string | number | undefined): number | undefined {
+  const angle = amount(value, 'rad');
+  return angle === null ? undefined : (angle * 180) / Math.PI;
+}
+
 /** Formats a value of a scenario for display. */
 export function shown(v: any, s: Schema): string {
   if (v === undefined || v === null) return '';
@@ -81,7 +87,7 @@ export function shown(v: any, s: Schema): string {
 export interface Checked {
   /** Value for the scenario; undefined: the default. */
   value?: any;
-  /** Error: key of the text in i18n.ts, and its values. */
+  /** Error: key of the text in the catalogues, and its values. */
   wrong?: [string, Record<string, string>];
 }
 

@@ -33,7 +33,7 @@ export const en = {
   'form.size_um': '{px} px are {um} µm',
   'form.recordings': 'Record and save are below the picture.',
   'form.default_source': 'source of the default {value}: {source}',
-  'form.angle': 'Angles in a scenario count counter-clockwise, y up: 0 deg is right, 90 deg is up.',
+  'form.angle': 'Angles in a scenario are counter-clockwise, y up: 0 deg is right, 90 deg is up.',
 } as const;
 
 export const pt: Record<keyof typeof en, string> = {
@@ -71,5 +71,5 @@ export const pt: Record<keyof typeof en, string> = {
   'form.size_um': '{px} px são {um} µm',
   'form.recordings': 'Os botões de gravação estão abaixo da imagem.',
   'form.default_source': 'fonte do padrão {value}: {source}',
-  'form.angle': 'Os ângulos de um cenário contam no sentido anti-horário, y para cima: 0 deg é à direita, 90 deg é para cima.',
+  'form.angle': 'Os ângulos de um cenário são no sentido anti-horário, y para cima: 0 deg é para a direita, 90 deg é para cima.',
 };

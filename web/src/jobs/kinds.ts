@@ -33,13 +33,6 @@ export interface InputFile {
   currents?: boolean;
   run?: boolean;
 }
-export interface Facts {
-  width: number;
-  height: number;
-  fps: number;
-  frames: number;
-  duration_s: number;
-}
 export interface Estimate {
   seconds: number;
   from: 'measured' | 'assumed';
@@ -57,8 +50,6 @@ export function jobKinds(): Promise<KindInfo[]> {
 export const inputFiles = () => get<InputFile[]>('/api/inputs');
 /** Videos of the workspace, newest first. */
 export const videoFiles = async () => (await inputFiles()).filter((f) => f.kind === 'video').map((f) => f.file);
-export const pictureOf = (file: string) => `/api/inputs/picture.png?file=${encodeURIComponent(file)}`;
-export const factsOf = (file: string) => get<Facts>(`/api/inputs/facts?file=${encodeURIComponent(file)}`);
 export const hasPicture = (kind: FileKind | 'frame') => kind === 'video' || kind === 'picture' || kind === 'frame';
 
 /** Starts a job; returns its number. Results of an experiment go to its folder. */
@@ -129,20 +120,6 @@ export function queueTimes(jobs: Job[]): Map<number, QueueTime> {
     times.set(j.id, { start, end: at });
   }
   return times;
-}
-
-/** A file size as text: "12 MB". */
-export function fileSize(bytes: number): string {
-  const units = ['B', 'kB', 'MB', 'GB', 'TB'];
-  let i = 0, v = bytes;
-  for (; v >= 999.5 && i + 1 < units.length; ++i) v /= 1000;
-  return `${i === 0 || v >= 100 ? Math.round(v) : Number(v.toPrecision(2))} ${units[i]}`;
-}
-/** Size and length of a video as text: "640 × 480 px, 15 Hz, 3 s". */
-export function factsText(f: Facts): string {
-  const parts = [`${f.width} × ${f.height} px`];
-  if (f.frames > 1 && f.fps > 0) parts.push(`${Number(f.fps.toPrecision(3))} Hz`, `${Number(f.duration_s.toPrecision(3))} s`);
-  return parts.join(', ');
 }
 
 /** A number of a scenario with its path, "swarm[0].model.speed". */

@@ -32,13 +32,19 @@ export function freeChoices(swarm: Schema, type: string): Record<string, Schema>
   take('swarm[0].count', swarm.properties?.count);
   return found;
 }
-/** A new free parameter: half to twice the default, within the limits of the schema. */
+/** A new free parameter: half to 1.5 times the default, within the limits of the schema. */
 export function newFree(path: string, s: Schema): FreeParameter {
   const unit = s['x-unit'] ?? '', value = amount(s.default, unit);
   if (value === null || value <= 0) return { path, prior: s.type === 'integer' ? 'range' : 'full', a: withUnit(s.minimum!, unit), b: withUnit(s.maximum!, unit) };
   const low = Math.max(s.minimum!, value / 2), high = Math.min(s.maximum!, value * 1.5); // twice the default is above the largest speed of some models
   const rounded = (v: number) => (s.type === 'integer' ? Math.round(v) : v);
   return { path, prior: 'range', a: withUnit(rounded(low), unit), b: withUnit(rounded(high), unit) };
+}
+/** The type, with a number if other parts of the list have it as their name. */
+export function newName(type: string, names: string[]): string {
+  let name = type;
+  for (let i = 2; names.includes(name); ++i) name = `${type} ${i}`;
+  return name;
 }
 /** A [[model]] of a study for identify. */
 export function candidateTable(c: CandidateModel) {
@@ -53,8 +59,8 @@ export interface Sweep {
   high: any;
   count: number;
 }
-/** Maximum number of combinations of a sweep. */
-export const kMostCombinations = 200;
+/** Maximum number of combinations of a sweep; the text 'sweep.many' has it too. */
+const kMostCombinations = 200;
 /** The [[model]] tables of a sweep: all combinations of the values. Throws a key of the page's texts. */
 export function sweepVariants(sweeps: Sweep[]): { name: string; set: Record<string, any> }[] {
   let all: { name: string; set: Record<string, any> }[] = [{ name: '', set: {} }];

@@ -35,5 +35,3 @@ export const folderOf = (page: string) => page.slice(0, Math.max(0, page.lastInd
 export const nameOf = (file: string) => file.slice(file.lastIndexOf('/') + 1);
 /** The address of a file of the folder of the lab. */
 export const fileAddress = (file: string) => '/' + file.split('/').map(encodeURIComponent).join('/');
-
-export const sizeText = (bytes: number) => (bytes < 1000 ? `${bytes} B` : bytes < 1e6 ? `${(bytes / 1e3).toPrecision(3)} kB` : `${(bytes / 1e6).toPrecision(3)} MB`);

@@ -20,6 +20,8 @@ export interface VideoAbout {
   um_per_px_source: string;
   note: string;
   damage: string;
+  /** Time of the file, s since 1970. */
+  modified_s: number;
 }
 /** What is known when the last frame was found. */
 export type VideoEnd = Pick<VideoAbout, 'frames' | 'length_s' | 'damage'>;

@@ -1,6 +1,7 @@
 // Experiments as the program sends them, and changes to them.
 
-import { amount } from '../../form/schema';
+import { amount, degrees } from '../../form/schema';
+import { normalised } from '../../video/angles';
 
 /** An entry of the list. */
 export interface ExperimentCard {
@@ -70,17 +71,21 @@ export const inverse = (changes: Change[]): Change[] =>
 type Value = string | number | undefined;
 /** A time, s; undefined for an empty or invalid text. */
 export const seconds = (value: Value) => amount(value, 's') ?? undefined;
-/** An angle, degrees; a number is in rad. */
-export function degrees(value: Value): number | undefined {
-  const angle = amount(value, 'rad');
-  return angle === null ? undefined : (angle * 180) / Math.PI;
-}
 
 /** Direction in which the cells swim after the reversal, degrees counter-clockwise from the right; undefined if it is not known. */
 export function swimmingDirection(e: Experiment, v: Video): number | undefined {
   const field = degrees(v.field_direction), polarity = e.drop?.find((d) => d.name === v.drop)?.polarity;
   if (field === undefined || (polarity !== 'north' && polarity !== 'south')) return undefined;
-  return (((field + (polarity === 'south' ? 180 : 0)) % 360) + 360) % 360;
+  return normalised(field + (polarity === 'south' ? 180 : 0));
+}
+
+/**
+ * The value of a drop or video that an error of the program is about: "video[0].exposure". An error about two values of one item,
+ * "to = 3 s is not later than from = 4 s", starts with one of them. Null for other errors.
+ */
+export function refusalOf({ where, what }: { where: string; what: string }): { list: string; index: number; key: string } | null {
+  const item = /^(drop|video)\[(\d+)\](?:\.(\w+))?$/.exec(where), key = item?.[3] ?? /^(\w+) = /.exec(what)?.[1];
+  return item && key ? { list: item[1], index: Number(item[2]), key } : null;
 }
 
 /** The first letter from A that no drop has as its name; after Z a number. */

@@ -30,12 +30,10 @@ export class Uploads {
     const left = await get<{ name: string; size: number; received: number }[]>(this.path);
     this.list = left.map((one) => ({ ...one, state: 'interrupted', what: '' }));
   }
-  add(files: Iterable<File>, drop: string) {
-    for (const file of files) {
-      this.list = this.list.filter((u) => u.size !== file.size || u.state !== 'interrupted');
-      this.list.push({ name: file.name, size: file.size, received: 0, state: 'waiting', what: '' });
-      this.queue.push({ upload: this.list.at(-1)!, file, drop });
-    }
+  add(file: File, drop: string) {
+    this.list = this.list.filter((u) => u.size !== file.size || u.state !== 'interrupted');
+    this.list.push({ name: file.name, size: file.size, received: 0, state: 'waiting', what: '' });
+    this.queue.push({ upload: this.list.at(-1)!, file, drop });
     void this.work();
   }
   private async work() {

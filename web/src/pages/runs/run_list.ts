@@ -90,14 +90,6 @@ export function found(runs: RunCard[], search: string): RunCard[] {
   });
 }
 
-/** "12.4 MB" with decimal prefixes, as file managers have. */
-export function bytesText(bytes: number): string {
-  const units = ['B', 'kB', 'MB', 'GB', 'TB'];
-  let k = 0, v = bytes;
-  while (v >= 999.5 && k < units.length - 1) (v /= 1000), ++k;
-  return `${k === 0 || v >= 99.95 ? v.toFixed(0) : v >= 9.995 ? v.toFixed(1) : v.toFixed(2)} ${units[k]}`;
-}
-
 /** "14.3 s", "2:05 min", "1:02:05 h". */
 export function durationText(s: number): string {
   if (s < 99.95) return `${s.toFixed(1)} s`;
