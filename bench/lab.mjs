@@ -27,6 +27,21 @@ const scene = (cells) => ({
 });
 const lines = [], say = (l) => (lines.push(l), console.log(l));
 const ghz = () => (Math.max(...[...readFileSync('/proc/cpuinfo', 'utf8').matchAll(/cpu MHz\s*: ([\d.]+)/g)].map((m) => Number(m[1]))) / 1000).toFixed(2);
+/** The number of the present frame of the run of a server, and its time. */
+const frameNow = async (server) => {
+  const c = await Client.open(server);
+  while (!c.news.state) await wait(1);
+  const at = [c.news.state.frame, performance.now()];
+  c.close();
+  return at;
+};
+/** Frames per second of the run in the next `seconds`, without a page that this function opens. */
+const rate = async (server, seconds) => {
+  const [f0, t0] = await frameNow(server);
+  await wait(seconds * 1000);
+  const [f1, t1] = await frameNow(server);
+  return ((f1 - f0) / (t1 - t0)) * 1000;
+};
 const browser = () => chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox'] });
 
 say(`# The live lab\n\n\`node bench/lab.mjs --program build/faba --root .\` on ${cpus().length} cores (${cpus()[0].model.trim()}, ${ghz()} GHz at the start).`);
@@ -47,10 +62,13 @@ say(`# The live lab\n\n\`node bench/lab.mjs --program build/faba --root .\` on $
 }
 
 // Pictures per second.
-say(`\n## Pictures in the page\n\nChromium without a graphics card: the page draws the cells pixel by pixel on the processor.\n\n| cells | pictures/s in the page | frames/s of the run | drawing, ms | bytes per frame | bytes per cell |\n|---|---|---|---|---|---|`);
+say(`\n## Pictures in the page\n\nChromium without a graphics card: the page draws the cells pixel by pixel on the processor.\n\n| cells | pictures/s in the page | frames/s of the run | frames/s without a page | drawing, ms | bytes per frame | bytes per cell |\n|---|---|---|---|---|---|---|`);
 for (const cells of [1e3, 1e4, 1e5]) {
   const s = await serve(program, folder), c = await Client.open(s);
   assert.ok((await c.ask('start', { scenario: scene(cells), seed: 1 })).ok);
+  c.close();
+  await wait(2000);
+  const alone = await rate(s, 5);
   const b = await browser(), page = await b.newPage({ viewport: { width: 1280, height: 800 } });
   await page.goto(s.address);
   await page.waitForFunction(() => document.querySelector('canvas.over')?.seen?.frames > 0);
@@ -60,9 +78,8 @@ for (const cells of [1e3, 1e4, 1e5]) {
   await wait(5000);
   const z = await seen(), seconds = (z.at - a.at) / 1000;
   assert.equal(z.cells, cells);
-  say(`| ${cells} | ${((z.frames - a.frames) / seconds).toFixed(1)} | ${((z.frame - a.frame) / seconds).toFixed(1)} | ${((z.milliseconds - a.milliseconds) / (z.frames - a.frames)).toFixed(1)} | ${z.bytes} | ${(z.bytes / cells).toFixed(2)} |`);
+  say(`| ${cells} | ${((z.frames - a.frames) / seconds).toFixed(1)} | ${((z.frame - a.frame) / seconds).toFixed(1)} | ${alone.toFixed(1)} | ${((z.milliseconds - a.milliseconds) / (z.frames - a.frames)).toFixed(1)} | ${z.bytes} | ${(z.bytes / cells).toFixed(2)} |`);
   await b.close();
-  c.close();
   s.lab.kill();
 }
 
@@ -74,32 +91,19 @@ say(`\n## Slowdown of the run by pages\n\n10 000 cells at speed factor 32, which
   assert.ok((await first.ask('start', { scenario: scene(1e4), seed: 1 })).ok);
   await first.ask('speed', { factor: 32 });
   first.close();
-  const frameNow = async () => {
-    const c = await Client.open(s);
-    while (!c.news.state) await wait(1);
-    const at = [c.news.state.frame, performance.now()];
-    c.close();
-    return at;
-  };
-  const rate = async (seconds = 2) => {
-    const [f0, t0] = await frameNow();
-    await wait(seconds * 1000);
-    const [f1, t1] = await frameNow();
-    return ((f1 - f0) / (t1 - t0)) * 1000;
-  };
   await wait(1000);
   for (const [who, pages, stalled] of [['1 page', 1, false], ['4 pages', 4, false], ['1 page that reads nothing', 1, true], ['4 pages that read nothing', 4, true]]) {
     const before = [], during = [];
     for (let i = 0; i < 9; ++i) {
-      before.push(await rate());
+      before.push(await rate(s, 2));
       const all = [];
       for (let k = 0; k < pages; ++k) all.push(await Client.open(s));
       if (stalled) (await wait(300), all.forEach((c) => c.stall()), await wait(1000));
-      during.push(await rate());
+      during.push(await rate(s, 2));
       all.forEach((c) => c.close());
       await wait(300);
     }
-    before.push(await rate());
+    before.push(await rate(s, 2));
     const loss = during.map((d, i) => 1 - d / ((before[i] + before[i + 1]) / 2));
     say(`| ${who} | ${median(during).toFixed(0)} | ${(100 * median(loss)).toFixed(1)} % |`);
   }

@@ -9,6 +9,7 @@
 #include "app/run/live_run.h"
 #include "app/scenario/read_scenario.h"
 #include "core/file.h"
+#include "core/threads/parallel.h"
 #include "server/access.h"
 #include "server/api/api.h"
 #include "server/experiments/experiment_store.h"
@@ -218,7 +219,8 @@ void serve_lab(const LabOptions& o) {
   WebServer server(o.port, folder.path());
   const Access access(random_token(), server.port());
 
-  LiveLab live(o.threads);
+  const unsigned threads = o.threads > 0 ? o.threads : std::max(2u, number_of_threads(0)) - 1;
+  LiveLab live(threads);
   Pages* pages = nullptr;
   std::mutex wiring;  // jobs may change before `pages` exists
   JobList jobs(o.program, workspace.root(), [&] {
@@ -234,7 +236,7 @@ void serve_lab(const LabOptions& o) {
     const Document d = read_toml(o.scene);
     const Parts& parts = builtin_parts();
     const std::optional<std::uint64_t> seed = read_scenario(d, parts).params.seed;
-    Pool pool(o.threads);
+    Pool pool(threads);
     // The lab's own thread would report an error to pages only: construct the run here first.
     const LiveRun check(d, seed.value_or(1), parts, pool);
     live.start(d, seed, [](const Json&) {});

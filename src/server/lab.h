@@ -16,7 +16,7 @@ struct LabOptions {
   std::filesystem::path scene;                 ///< initial scene; empty: none
   std::filesystem::path pages;                 ///< files of the page, for development; empty: embedded files
   unsigned short port = 0;                     ///< 0: any free port
-  unsigned threads = 0;
+  unsigned threads = 0;  ///< 0: all hardware threads but one, which is left to the browser
   /// Called once when the server is ready: the URL with the token, and a file that redirects a browser to it.
   std::function<void(const std::string& address, const std::filesystem::path& door)> ready;
   const std::atomic<bool>* stop = nullptr;

@@ -78,7 +78,9 @@ void add_lab(CLI::App& app, CommandLine& line) {
        "started; may be repeated")
       ->check(not_empty);
   v->add_flag("--no-browser", o->no_browser, "Do not open a browser; print the address only");
-  v->add_option("--threads", o->threads, "Number of threads; default: all threads of the machine")
+  v->add_option(
+       "--threads", o->threads,
+       "Number of threads; default: all threads of the machine but one, which is left to the browser")
       ->check(integers(1, 1024));
   v->add_option("--www", o->pages, "Read the files of the page from this folder, for development")
       ->check([](const std::string& path) {
