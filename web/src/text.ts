@@ -1,22 +1,12 @@
 // Texts of the program as the page shows them: units with the letter µ, and Portuguese where the page has a translation.
 
 import { RequestError } from './connection';
-import { kProgram, type Say, type Word } from './i18n';
+import type { Say, Word } from './i18n';
+import { textIn } from './i18n/program/catalogue';
+import { micro } from './units';
 
-/**
- * Writes the prefix micro as µ: "23 uT" becomes "23 µT". Keys such as um_per_px do not change. `us` is a unit only after a
- * number.
- */
-export const micro = (text: string) =>
-  text.replace(/(?<![\w.`-])u(?=(?:m|T|A|H|V|N|Pa|W)(?!\w))/g, 'µ').replace(/(?<=\d ?)u(?=s\b)/g, 'µ');
-
-/** The translation of a fixed text of the program; undefined without a translation. */
-function translated(text: string, say: Say): string | undefined {
-  const all = kProgram[say.language];
-  return Object.hasOwn(all, text) ? all[text] : undefined;
-}
 /** A message of the program in the language of the page. The Portuguese word "um" is not a unit. */
-export const programText = (text: string, say: Say) => translated(text, say) ?? micro(text);
+export const programText = (text: string, say: Say) => textIn(say.language, text) ?? micro(text);
 
 /** With a capital letter at the start; the sign µ remains. */
 export const capitalised = (text: string) => text.replace(/^[a-zà-ÿ]/, (c) => c.toUpperCase());
@@ -24,7 +14,7 @@ export const capitalised = (text: string) => text.replace(/^[a-zà-ÿ]/, (c) => 
 /** The title of a job, "activity: file": its verb in the language of the page. */
 export function jobTitle(title: string, say: Say): string {
   const colon = title.indexOf(': ');
-  const verb = colon < 0 ? undefined : translated(title.slice(0, colon), say);
+  const verb = colon < 0 ? undefined : textIn(say.language, title.slice(0, colon));
   return verb === undefined ? title : verb + title.slice(colon);
 }
 

@@ -1,4 +1,4 @@
-// Units of lengths and currents in the readouts and plots, and sizes of files.
+// Units of lengths and currents in the readouts and plots, sizes of files, and the sign of the prefix micro.
 
 export type LengthChoice = 'um' | 'px';
 export interface LengthUnit {
@@ -32,3 +32,10 @@ export function bytesText(bytes: number): string {
   while (v >= 999.5 && k < units.length - 1) (v /= 1000), ++k;
   return `${k === 0 || v >= 99.95 ? v.toFixed(0) : v >= 9.995 ? v.toFixed(1) : v.toFixed(2)} ${units[k]}`;
 }
+
+/**
+ * Writes the prefix micro as µ: "23 uT" becomes "23 µT". Keys such as um_per_px do not change. `us` is a unit only after a
+ * number.
+ */
+export const micro = (text: string) =>
+  text.replace(/(?<![\w.`-])u(?=(?:m|T|A|H|V|N|Pa|W)(?!\w))/g, 'µ').replace(/(?<=\d ?)u(?=s\b)/g, 'µ');

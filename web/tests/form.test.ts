@@ -1,10 +1,13 @@
-import { describe, expect, test } from 'vitest';
+import { beforeAll, describe, expect, test } from 'vitest';
 import type { Schema } from '../src/form/schema';
 import { hasMatch, isMatch, wordsOf } from '../src/form/search';
 import { changed, found, kSize, kSpeed, kTarget } from '../src/form/simple';
 import { englishTitle, titleOf } from '../src/form/titles';
 import { words } from '../src/i18n';
+import { loadTexts } from '../src/i18n/program/catalogue';
 import { sampleSchema } from './sample_schema';
+
+beforeAll(() => loadTexts('pt'));
 
 const en = words('en'), pt = words('pt');
 

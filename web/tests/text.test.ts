@@ -1,9 +1,12 @@
-import { describe, expect, test } from 'vitest';
+import { beforeAll, describe, expect, test } from 'vitest';
 import { RequestError } from '../src/connection';
 import { words } from '../src/i18n';
-import { failureText, grouped, jobTitle, micro, placeInFile, programText, reason, withCode } from '../src/text';
+import { loadTexts } from '../src/i18n/program/catalogue';
+import { failureText, grouped, jobTitle, placeInFile, programText, reason, withCode } from '../src/text';
+import { micro } from '../src/units';
 
 const en = words('en'), pt = words('pt');
+beforeAll(() => loadTexts('pt'));
 
 describe('units of the program', () => {
   test.each([

@@ -1,6 +1,7 @@
 // Titles of the values of a scenario: that of the schema, or made from the key.
 
-import { kTitles, type Say } from '../i18n';
+import type { Say } from '../i18n';
+import { titleIn } from '../i18n/program/catalogue';
 import { capitalised, programText } from '../text';
 import type { Schema } from './schema';
 
@@ -24,8 +25,8 @@ export const englishTitle = (key: string, schema: Schema = {}) => (schema.title 
 
 /** The title in the language of the page, and whether it is a translation. */
 export function titleOf(key: string, schema: Schema, say: Say): string {
-  const english = englishTitle(key, schema), all = kTitles[say.language];
-  return Object.hasOwn(all, english) ? all[english] : english;
+  const english = englishTitle(key, schema);
+  return titleIn(say.language, english) ?? english;
 }
 
 /** The title of a value of a study file: its key, which has a translation with the texts of the program. */

@@ -1,5 +1,5 @@
-// Texts of the page in English and Brazilian Portuguese, one catalogue for each part of the page; program.ts has
-// translations of the texts of the program.
+// Texts of the page in English and Brazilian Portuguese, one catalogue for each part of the page; the folder
+// program has translations of the texts of the program.
 
 import * as analyse from './analyse';
 import * as app from './app';
@@ -15,9 +15,6 @@ import * as runs from './runs';
 import * as tracks from './tracks';
 import * as video from './video';
 import * as workbench from './workbench';
-
-export { kProgram } from './program';
-export { kTitles } from './titles';
 
 const en = {
   ...analyse.en,

@@ -71,24 +71,33 @@ export function sanitised(node: Source, folder: string, inDrawing = false): (Cle
   return out;
 }
 
-/** The elements of sanitised content. */
-export function built(content: (Clean | string)[], document: Document): DocumentFragment {
+type Translate = (text: string) => string;
+
+/** The translation of a text between tags: white space around it and the content of `code` do not change. */
+function shown(text: string, tag: string, translate: Translate): string {
+  const core = text.trim();
+  return core === '' || tag === 'code' || tag === 'pre' ? text : text.replace(core, () => translate(core));
+}
+const kTextAttributes = ['aria-label', 'alt', 'title', 'data-x', 'data-y', 'data-legend'];
+
+/** The elements of sanitised content, with their texts translated. */
+export function built(content: (Clean | string)[], document: Document, translate: Translate = (text) => text, tag = ''): DocumentFragment {
   const fragment = document.createDocumentFragment();
   for (const one of content) {
     if (typeof one === 'string') {
-      fragment.append(one);
+      fragment.append(shown(one, tag, translate));
       continue;
     }
     const element = one.svg ? document.createElementNS(kSvg, one.tag) : document.createElement(one.tag);
-    for (const [name, value] of one.attributes) element.setAttribute(name, value);
-    element.append(built(one.children, document));
+    for (const [name, value] of one.attributes) element.setAttribute(name, kTextAttributes.includes(name) ? translate(value) : value);
+    element.append(built(one.children, document, translate, one.tag));
     fragment.append(element);
   }
   return fragment;
 }
 
-/** A report as elements of the page; null if it is not well-formed XML. */
-export function reportElements(xml: string, folder: string): DocumentFragment | null {
+/** A report as elements of the page, with its texts translated; null if it is not well-formed XML. */
+export function reportElements(xml: string, folder: string, translate: Translate): DocumentFragment | null {
   const parsed = new DOMParser().parseFromString(xml, 'application/xml');
-  return parsed.querySelector('parsererror') ? null : built(sanitised(parsed as unknown as Source, folder), document);
+  return parsed.querySelector('parsererror') ? null : built(sanitised(parsed as unknown as Source, folder), document, translate);
 }

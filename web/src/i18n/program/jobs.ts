@@ -1,5 +1,5 @@
 /** Portuguese texts of the kinds of jobs, their inputs and the studies, by the text of the program. */
-export const jobTexts: Record<string, string> = {
+export const jobs: Record<string, string> = {
   'field null': 'zero do campo', 'field tolerance': 'tolerância do campo', 'field fit': 'ajuste do campo', 'field library': 'biblioteca do campo', track: 'trajetórias', scale: 'escala', drop: 'gota',
   'Measures when cells move in one direction after a field reversal, and how much': 'Mede quando as células se movem em uma direção após uma inversão do campo, e quanto',
   'Measures the activity of all videos of an experiment against the air exposure time': 'Mede a atividade de todos os vídeos de um experimento em função do tempo de exposição ao ar',

@@ -1,0 +1,57 @@
+// Translations of the texts of the program: fixed texts, and texts with values, which have {} in the catalogue.
+
+import { micro } from '../../units';
+import type { Language } from '..';
+
+type Texts = Record<string, string>;
+interface Template {
+  english: RegExp;
+  translation: string;
+}
+export interface Catalogue {
+  texts: Texts;
+  titles: Texts;
+  templates: Template[];
+}
+
+const kEmpty: Catalogue = { texts: {}, titles: {}, templates: [] };
+const catalogues: Record<Language, Catalogue> = { en: kEmpty, pt: kEmpty };
+
+const literal = (text: string) => text.replace(/[.*+?^${}()|[\]\\]/g, '\\$&');
+
+/** Texts with values, those with the most fixed characters first. */
+export function templatesOf(texts: Texts): Template[] {
+  const fixed = (english: string) => english.replaceAll('{}', '').length;
+  return Object.entries(texts)
+    .filter(([english]) => english.includes('{}'))
+    .sort(([a], [b]) => fixed(b) - fixed(a))
+    .map(([english, translation]) => ({ english: new RegExp(`^${english.split('{}').map(literal).join('(.+?)')}$`, 's'), translation }));
+}
+
+/** Loads the texts of a language, which the page does before it shows them. */
+export async function loadTexts(language: Language) {
+  if (language === 'en' || catalogues[language] !== kEmpty) return;
+  const { texts, titles } = await import('./pt');
+  catalogues[language] = { texts, titles, templates: templatesOf(texts) };
+}
+
+const own = (all: Texts, text: string) => (Object.hasOwn(all, text) ? all[text] : undefined);
+
+/** The translation of the title of a value; undefined without one. */
+export const titleIn = (language: Language, title: string) => own(catalogues[language].titles, title);
+
+/** The translation of a text by a catalogue, also of the values in it; undefined without one. */
+export function translationBy(catalogue: Catalogue, text: string): string | undefined {
+  const exact = own(catalogue.texts, text);
+  if (exact !== undefined) return exact;
+  for (const { english, translation } of catalogue.templates) {
+    const found = english.exec(text);
+    if (!found) continue;
+    const values = found.slice(1).map((v) => translationBy(catalogue, v) ?? micro(v));
+    let next = 0;
+    return translation.replace(/\{(\d*)\}/g, (_, n) => values[n ? Number(n) - 1 : next++] ?? '');
+  }
+  return undefined;
+}
+/** The translation of a text of the program; undefined without one. */
+export const textIn = (language: Language, text: string) => translationBy(catalogues[language], text);
