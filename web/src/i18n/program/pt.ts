@@ -3,8 +3,11 @@
 
 import { jobs } from './jobs';
 import { names } from './names';
+import { reports } from './reports';
+import { scenes } from './scenes';
+import { schema } from './schema';
 import { titles } from './titles';
 
 /** Texts of forms. A title may have another translation than the same words elsewhere. */
 export { titles };
-export const texts: Record<string, string> = { ...names, ...jobs };
+export const texts: Record<string, string> = { ...names, ...jobs, ...schema, ...scenes, ...reports };

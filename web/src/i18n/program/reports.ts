@@ -1,0 +1,2 @@
+/** Portuguese texts of the reports. */
+export const reports: Record<string, string> = {};
