@@ -2,7 +2,7 @@
 
 import { RequestError } from './connection';
 import type { Say, Word } from './i18n';
-import { textIn } from './i18n/program/catalogue';
+import { reportIn, textIn } from './i18n/program/catalogue';
 import { micro, microAfterNumber } from './units';
 
 /**
@@ -10,6 +10,8 @@ import { micro, microAfterNumber } from './units';
  * after a number.
  */
 export const programText = (text: string, say: Say) => textIn(say.language, text) ?? withMicro(text, say);
+/** Likewise, a text of a report. */
+export const reportText = (text: string, say: Say) => reportIn(say.language, text) ?? withMicro(text, say);
 const withMicro = (text: string, say: Say) => (say.language === 'en' ? micro(text) : microAfterNumber(text));
 
 /** With a capital letter at the start; the sign µ remains. */
