@@ -47,7 +47,7 @@ std::string quality_markup(const std::vector<Warning>& warnings) {
 }
 
 std::string note_markup(const std::string& note, const std::string& file, const char* style) {
-  const std::string where = file.empty() ? "" : escape_markup(file) + ": ";
+  const std::string where = file.empty() ? "" : span(file) + ": ";
   return fmt::format("<p class=\"{}\">{}{}.</p>\n", style, where, span(note));
 }
 

@@ -1,4 +1,5 @@
 /** Portuguese texts of the reports. */
+import { aspects } from './reports/aspects';
 import { calibration } from './reports/calibration';
 import { common } from './reports/common';
 import { control } from './reports/control';
@@ -6,5 +7,6 @@ import { identify } from './reports/identify';
 import { motion } from './reports/motion';
 import { run } from './reports/run';
 import { tracks } from './reports/tracks';
+import { values } from './reports/values';
 
-export const reports: Record<string, string> = { ...common, ...run, ...motion, ...tracks, ...identify, ...control, ...calibration };
+export const reports: Record<string, string> = { ...values, ...aspects, ...common, ...run, ...motion, ...tracks, ...identify, ...control, ...calibration };

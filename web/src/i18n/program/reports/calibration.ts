@@ -26,4 +26,9 @@ export const calibration: Record<string, string> = {
   'Coverage of the intervals of {}': 'Cobertura dos intervalos de {}', 'level of the interval': 'nível do intervalo', 'fraction that contains the truth': 'fração que contém o valor verdadeiro', '{}: all parameters together (TARP)': '{}: todos os parâmetros juntos (TARP)',
   'Expected coverage of regions around random points (TARP, Lemos et al. 2023).': 'Cobertura esperada de regiões em torno de pontos aleatórios (TARP, Lemos et al. 2023).', 'Shaded: 99 % band (binomial, at each level).': 'Sombreado: faixa de 99 % (binomial, em cada nível).',
   'Largest difference {} (Kolmogorov-Smirnov p = {}).': 'Maior diferença {} (p de Kolmogorov-Smirnov = {}).', 'Expected coverage of all parameters of {}': 'Cobertura esperada de todos os parâmetros de {}', 'credibility level': 'nível de credibilidade', 'expected coverage': 'cobertura esperada',
+  // Warnings
+  'with {} of {}, {} % intervals that are too wide cannot be detected': 'com {} de {}, intervalos de {} % largos demais não podem ser detectados', 'right intervals contain the true value in {} to {} of them (99 %)': 'intervalos corretos contêm o valor verdadeiro em {} a {} deles (99 %)',
+  'increase experiments; the default is 100': 'aumente experiments; o padrão é 100', 'the {} % intervals of {} of {} are too narrow': 'os intervalos de {} % de {} de {} são estreitos demais', 'the {} % intervals of {} of {} are too wide': 'os intervalos de {} % de {} de {} são largos demais',
+  '{} of {} contain the true value; {} to {} are expected (99 %)': '{} de {} contêm o valor verdadeiro; esperam-se {} a {} (99 %)', 'increase simulations, or give narrower prior ranges': 'aumente simulations, ou dê intervalos a priori mais estreitos',
+  '{} of {} experiments ({}) could not be identified': '{} de {} experimentos ({}) não puderam ser identificados', 'give narrower prior ranges': 'dê intervalos a priori mais estreitos',
 };

@@ -13,7 +13,7 @@ export const identify: Record<string, string> = {
   '{#} ± {#} of them': '{} ± {} delas', '{#} ± {#} per s': '{} ± {} por s', '{#} ± {#} of the mean speed': '{} ± {} da velocidade média', '{#} ± {#} of the cells': '{} ± {} das células', '{#} ± {#} of its strength': '{} ± {} da sua intensidade', '{#} ± {#} frames': '{} ± {} quadros', '{} (significant)': '{} (significativo)',
   'Only one model was identified; there is no comparison of models.': 'Apenas um modelo foi identificado; não há comparação de modelos.',
   'No evidence: a comparison needs at least two experiments.': 'Sem evidência: uma comparação precisa de pelo menos dois experimentos.', 'The energy score of {} is lower than that of {}.': 'O escore de energia de {} é menor que o de {}.',
-  '{}: {} (posterior median and 90 % interval).': '{}: {} (mediana a posteriori e intervalo de 90 %).',
+  '(posterior median and 90 % interval)': '(mediana a posteriori e intervalo de 90 %)',
   // Tables
   'parameters, median and 90 % interval': 'parâmetros, mediana e intervalo de 90 %', 'nuisance parameters': 'parâmetros da cultura', 'energy score': 'escore de energia', 'fit p': 'p do ajuste', 'valid simulations': 'simulações válidas',
   'Energy score: mean over {} {}, each predicted from the others; lower is better.': 'Escore de energia: média sobre {} {}, cada um predito a partir dos outros; menor é melhor.',
