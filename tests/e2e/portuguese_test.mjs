@@ -15,10 +15,11 @@ import { kViews, makeViews, visit } from './lab_views.mjs';
 const web = join(root, 'web'), vitePackage = createRequire(join(web, 'package.json')).resolve('vite/package.json');
 const { createServer } = await import(pathToFileURL(join(dirname(vitePackage), 'dist/node/index.js')).href);
 const vite = await createServer({ root: web, configFile: false, server: { middlewareMode: true, hmr: false, ws: false }, appType: 'custom', logLevel: 'error', optimizeDeps: { noDiscovery: true } });
-const [{ loadTexts, reportIn, textIn, titleIn }, { texts, reports, titles }, { kWords }, { englishTitle }, { sanitised }, { translated }] = await Promise.all(
-  ['i18n/program/catalogue', 'i18n/program/pt', 'i18n/index', 'form/titles', 'results/sanitise', 'results/translate'].map((m) => vite.ssrLoadModule(`/src/${m}.ts`)),
+const [{ loadTexts, textIn, titleIn }, { loadReports, reportIn }, { texts, titles }, { reports }, { kWords }, { englishTitle }, { sanitised }, { translated }] = await Promise.all(
+  ['i18n/program/catalogue', 'i18n/program/report_texts', 'i18n/program/pt', 'i18n/program/reports', 'i18n/index', 'form/titles', 'results/sanitise', 'results/translate'].map((m) => vite.ssrLoadModule(`/src/${m}.ts`)),
 );
 await loadTexts('pt');
+await loadReports('pt');
 await vite.close();
 
 const kNotWords = /`[^`]*`|\S*[_/=@\\[\]{}]\S*|\S+\.\w\S*|--\S+|\S*\d\S*/g; // code, keys, files, options, numbers with units
@@ -28,14 +29,11 @@ const run = (...words) => execFileSync(program, [...words, '--quiet'], { cwd: wo
 const scenario = JSON.parse(run('schema', 'scenario'));
 const below = (schema) => [...(schema.oneOf ?? []), ...Object.values(schema.properties ?? {}), ...(schema.items ? [schema.items] : [])];
 const everySchema = (schema) => [schema, ...below(schema).flatMap(everySchema)];
-/** Keys of values, which reports name, and names of parts. */
-const keys = new Set(everySchema(scenario).flatMap((s) => Object.keys(s.properties ?? {})));
+/** Names of parts. */
 const parts = new Set(everySchema(scenario).flatMap((s) => s.const ?? []));
 /** Words of English texts that no Portuguese text has. */
 const english = new Set([...Object.keys({ ...texts, ...titles, ...reports }), ...Object.values(kWords.en)].flatMap(wordsOf).filter((w) => !portuguese.has(w) && !parts.has(w)));
 const isEnglish = (text) => wordsOf(text).some((w) => english.has(w));
-
-const isKey = (text) => wordsOf(text).length === 1 && keys.has(wordsOf(text)[0]);
 
 /** The texts of a JSON Schema, and the titles of its values. */
 function schemaTexts(schema, name = '', found = { texts: [], titles: [] }) {
@@ -101,12 +99,13 @@ const parsed = (file) => page.evaluate((xml) => {
   return copy(new DOMParser().parseFromString(xml, 'application/xml'));
 }, readFileSync(join(workspace, file), 'utf8'));
 
-/** The English texts that remain in a report: texts without a translation, and values of texts. */
+/** The texts of a translated report that have English words. */
 async function remaining(file) {
   const found = new Set();
   const content = translated(sanitised(await parsed(file), 'runs/x'), (text) => {
-    const plain = (value) => (isEnglish(value) && !isKey(value) && found.add(value), value);
-    return reportIn('pt', text, plain) ?? plain(text);
+    const shown = reportIn('pt', text) ?? text;
+    if (isEnglish(shown.replaceAll('responding', ''))) found.add(shown); // a parameter of the study
+    return shown;
   });
   assert.ok(JSON.stringify(content).includes('Proveniência'), file);
   return [...found];

@@ -2,7 +2,8 @@
 
 import { RequestError } from './connection';
 import type { Say, Word } from './i18n';
-import { reportIn, textIn } from './i18n/program/catalogue';
+import { textIn } from './i18n/program/catalogue';
+import { reportIn } from './i18n/program/report_texts';
 import { micro, microAfterNumber } from './units';
 
 /**

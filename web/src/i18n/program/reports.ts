@@ -1,4 +1,4 @@
-/** Portuguese texts of the reports. */
+/** Portuguese texts of the reports; {#} in an English text is a number. */
 import { aspects } from './reports/aspects';
 import { calibration } from './reports/calibration';
 import { common } from './reports/common';

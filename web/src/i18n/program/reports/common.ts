@@ -2,7 +2,7 @@
 export const common: Record<string, string> = {
   Provenance: 'Proveniência', Program: 'Programa', Input: 'Entrada', Options: 'Opções', defaults: 'padrões', '(others: defaults)': '(outras: padrões)', '{}, SHA-256': '{}, SHA-256', Duration: 'Duração', Seed: 'Semente',
   'Quality of the measurement:': 'Qualidade da medição:', good: 'boa', doubtful: 'duvidosa', poor: 'ruim', Notes: 'Observações', Figures: 'Figuras', Results: 'Resultados', Models: 'Modelos',
-  'Figure {#}.': 'Figura {}.', '{}: there are no values, and the figure is omitted.': '{}: não há valores, e a figura é omitida.', 'no data': 'sem dados', '{} ×10{}': '{} ×10{}', '{}: {}': '{}: {}',
+  'Figure {#}.': 'Figura {}.', '{}: there are no values, and the figure is omitted.': '{}: não há valores, e a figura é omitida.', 'no data': 'sem dados', '{} ×10{}': '{} ×10{}',
   '{#} of {#}': '{} de {}', '{#} to {#}': '{} a {}', '{#} % to {#} %': '{} % a {} %', '{#} video': '{} vídeo', '{#} videos': '{} vídeos', '{#} experiment': '{} experimento', '{#} experiments': '{} experimentos',
   '{#} frame': '{} quadro', '{#} frames': '{} quadros', '{#} seed': '{} semente', '{#} seeds': '{} sementes', '{#} track': '{} trajetória', '{#} tracks': '{} trajetórias', '{#} position': '{} posição', '{#} positions': '{} posições',
   '{#} time interval': '{} intervalo de tempo', '{#} time intervals': '{} intervalos de tempo', '{#} per frame': '{} por quadro',
