@@ -23,21 +23,24 @@ import sys
 REPORTS = ("src/study/pages/", "src/study/plot/")
 # Messages of these folders and files appear only in a terminal or in the journal of the coil guard. Jobs run other verbs.
 TERMINAL_ONLY = ("src/guard/", "src/rig/guard/", "src/cli/options/", "src/cli/verbs/rig/", "src/cli/command_line", "src/cli/main",
-                 "src/cli/usage_message", "src/cli/verbs.cpp", "src/cli/progress", "src/study/calibrate/")
+                 "src/cli/usage_message", "src/cli/verbs.cpp", "src/cli/progress", "src/cli/verbs/doctor", "src/study/calibrate/",
+                 "src/study/engines/slurm", "src/study/engines/dask", "src/study/engines/parallel", "src/rig/setup/coil_guard")
 SCHEMA_CALLS = {"check", "note"}  # their argument is a function that returns a message
 # Variables, members and JSON keys that have a message, and lists of messages.
-HOLDERS = {"what", "why", "trouble", "error", "reason", "note", "evidence", "warning", "doing", "rejection", "ignored", "damage", "doubt"}
+HOLDERS = re.compile("what|why|trouble|error|.*reason|note|evidence|advice|warning|doing|rejection|ignored|damage|doubt")
 LISTS = {"notes", "warnings"}
 TEXT_TYPES = {"string", "char", "string_view"}
 NOT_FUNCTIONS = {"if", "for", "while", "switch", "catch", "return", "sizeof", "decltype"}
 TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|^\s*#(?:[^\n]*\\\n)*[^\n]*|R"\((?P<raw>.*?)\)"|"(?P<text>(?:\\.|[^"\\\n])*)"|\'(?:\\.|[^\'\\])+\''
                    r'|[A-Za-z_]\w*|\d[\w.\']*|::|->|\+=|[=!<>]=|&&|\|\||\S', re.S | re.M)
 PAIRS = {"(": ")", "[": "]", "{": "}"}
+UNITS = {"px", "um", "mm", "cm", "mT", "uT", "nT", "deg", "Hz", "GB", "TB", "MB", "Pa", "bz", "rho"}
 MOST = 24  # combinations of the parts of one message
 # A function or class, its number of arguments, the index of the one that is a message or, without `words`, a part of one, and
 # the only file of a part.
 Sink = collections.namedtuple("Sink", "name arguments index words file")
-SINKS = {Sink("Error", 3, 2, True, ""), Sink("invalid_argument", 1, 0, True, ""), Sink("Verdict", 2, 1, True, "")}
+SINKS = {Sink(name, count, index, True, "") for name, count, index in (
+    ("Error", 3, 2), ("invalid_argument", 1, 0), ("Verdict", 2, 1), ("LikelyUnits", 2, 0), ("LikelyUnits", 2, 1), ("progress", 3, 0), ("tick", 3, 0))}
 
 
 class Token(str):
@@ -209,7 +212,7 @@ class Reader:
         place = f"{source.name}:{source.tokens[index].line}"
         for v in [*found, *self.apart]:
             v = re.sub(r"(\{\})+", "{}", v).strip(" ;,")
-            if " " in v.strip() if not words else re.search("[A-Za-z]{2}", v.replace("{}", "")) and not re.fullmatch(r"-*\w+_\w+|<.*", v):
+            if has_words(v) and (words or " " in v):
                 self.templates.setdefault(v, place)
         known = [self.names(hole, source, index, words and found == ["{}"]) for hole in holes]
         if words and found == ["{}"] and not any(known) and len(tokens) and tokens != ["{", "}"]:
@@ -269,30 +272,36 @@ class Reader:
         for sink in [s for s in self.sinks if s.file in ("", source.name)]:
             for i in source.places.get(sink.name, []):
                 arguments = source.arguments(i)
-                if len(arguments) == sink.arguments and not TEXT_TYPES & set(arguments[sink.index]):
+                if len(arguments) == sink.arguments and "const" not in arguments[sink.index]:
                     self.keep(arguments[sink.index], source, i, sink.words)
+        for f in source.functions if not source.name.startswith(REPORTS) else []:
+            if f.name.endswith("_note"):
+                self.returns(f, source)
         for name in SCHEMA_CALLS:
             for i in source.places.get(name, []):
-                for f in source.functions if t[i + 1:i + 3] == ["(", "["] else []:
-                    if i < f.start < source.closing[i + 1]:
+                named = str(t[i + 2]) if t[i + 1] == "(" and t[i + 3] == ")" else "-"
+                for f in source.functions:
+                    if f.name == named or i < f.start < source.closing.get(i + 1, 0):
                         self.returns(f, source)
 
     def scan_fields(self, source):
         """Messages that variables, lists and fields of one source have."""
-        t, warns = source.tokens, "Warning" in source.places
+        t, warns = source.tokens, {"Warning", "warnings"} & set(source.places)
         for i, name in enumerate(t[:-3]):
             if name == "{":  # a warning {aspect, what, evidence, advice, quality}, or an answer {status, why}
                 arguments = source.arguments(i - 1)
-                first = arguments[0][0] if arguments and len(arguments[0]) == 1 else Token("")
-                second = arguments[1][0].text or "" if len(arguments) > 1 and arguments[1] else ""
-                if warns and first.text and first.text.isalpha() and len(arguments) > 2 and (" " in second or arguments[1][:1] == ["fmt"]):
+                sentences = [any(x.text and " " in x.text.strip() for x in a) for a in arguments]
+                if 2 < len(arguments) < 6 and warns and sentences[1] and (arguments[0][-1:] == ["aspect"] or (arguments[0][0].text or "-") > "a"):
                     for a in arguments[1:4]:
                         self.keep(a, source, i)
-                elif re.fullmatch("[45][0-9][0-9]", first) and second:
-                    self.keep(arguments[1], source, i)
-            if (name in HOLDERS and t[i + 1] in ("=", "+=")) or (name.text in HOLDERS and (t[i + 1] == "," or t[i + 1:i + 3] == ["]", "="])):
+                elif len(arguments) == 3 and arguments[0][:1] in (["Errc"], ["code"]) or sentences[1:2] == [True] and t[i - 1] == "return":
+                    self.keep(arguments[min(2, len(arguments) - 1)], source, i)
+            if name == "Progress" and t[i + 1].isidentifier():
+                for a in until(t, i, {";"}):
+                    self.keep([a] if a.text else [], source, i)
+            if (HOLDERS.fullmatch(name) and t[i + 1] in ("=", "+=")) or (HOLDERS.fullmatch(name.text or "") and (t[i + 1] == "," or t[i + 1:i + 3] == ["]", "="])):
                 self.keep(until(t, i + 2 + (t[i + 1] == "]"), {";", ","}), source, i, False)
-            if name in LISTS and t[i + 1] == "." and t[i + 2] in ("push_back", "emplace_back"):
+            if name in LISTS and t[i + 1] == "." and t[i + 2] in ("push_back", "emplace_back") and t[i + 4] != "{":
                 self.keep(t[i + 4:source.closing[i + 3]], source, i)
 
     def all(self):
@@ -305,6 +314,12 @@ class Reader:
             for source in self.sources:
                 self.scan(source)
         return self.templates
+
+
+def has_words(template):
+    """Whether a text has something to translate: a word that is not a unit, an option, a quoted text or a key with underscores."""
+    plain = re.sub(r'--\S+|`[^`]*`|"[^"]*"|<.*|\{\}', " ", template)
+    return any(len(word) > 1 and "_" not in word and word not in UNITS for word in re.findall(r"[A-Za-z_]\w*", plain))
 
 
 def sources_of(root):
