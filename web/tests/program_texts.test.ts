@@ -22,6 +22,43 @@ describe('texts of the program', () => {
   });
 });
 
+describe('messages of several parts', () => {
+  const texts = {
+    'file not found': 'arquivo não encontrado',
+    'unknown key{}': 'chave desconhecida{}',
+    'did you mean "{}"?': 'você quis dizer "{}"?',
+    speed: 'velocidade',
+    'check the name': 'verifique o nome',
+    'The run is long.': 'A execução é longa.',
+    'It has {} frames.': 'Tem {} quadros.',
+    'few marks': 'poucas marcas',
+    '{} marks': '{} marcas',
+    'reading of {}': 'leitura de {}',
+  };
+  const catalogue = { texts, titles: {}, templates: templatesOf(texts) };
+  const say = (text: string) => translationBy(catalogue, text);
+  test('have the translations of their parts', () => {
+    expect(say('file not found; check the name')).toBe('arquivo não encontrado; verifique o nome');
+    expect(say('The run is long. It has 3 frames.')).toBe('A execução é longa. Tem 3 quadros.');
+    expect(say('few marks (3 marks); check the name')).toBe('poucas marcas (3 marcas); verifique o nome');
+    expect(say('unknown key; did you mean "x"?; check the name')).toBe('chave desconhecida; você quis dizer "x"?; verifique o nome');
+  });
+  test('have none if a part has none', () => {
+    expect(say('file not found; try again')).toBeUndefined();
+    expect(say('1; 2')).toBeUndefined();
+    expect(say('')).toBeUndefined();
+    expect(say('; ')).toBeUndefined();
+  });
+  test('have their place before them, which is translated unless it is a key', () => {
+    expect(say('a.toml:3: speed: few marks')).toBe('a.toml:3: speed: poucas marcas');
+    expect(say('reading of speed: few marks')).toBe('leitura de velocidade: poucas marcas');
+  });
+  test('have empty values, and quoted values as they are', () => {
+    expect(say('unknown key')).toBe('chave desconhecida');
+    expect(say('did you mean "speed"?')).toBe('você quis dizer "speed"?');
+  });
+});
+
 describe('the Portuguese catalogue', () => {
   const values = (text: string) => (text.match(/\{\d*\}/g) ?? []).length;
   test.each(Object.entries({ ...texts, ...titles }))('%s', (english, translation) => {

@@ -3,8 +3,9 @@
 
 import { jobs } from './jobs';
 import { names } from './names';
+import { refusals } from './refusals';
 import { titles } from './titles';
 
 /** Texts of forms. A title may have another translation than the same words elsewhere. */
 export { titles };
-export const texts: Record<string, string> = { ...names, ...jobs };
+export const texts: Record<string, string> = { ...refusals, ...names, ...jobs };
