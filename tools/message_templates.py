@@ -23,7 +23,7 @@ import sys
 REPORTS = ("src/study/pages/", "src/study/plot/")
 # Messages of these folders and files appear only in a terminal or in the journal of the coil guard. Jobs run other verbs.
 TERMINAL_ONLY = ("src/guard/", "src/rig/guard/", "src/cli/options/", "src/cli/verbs/rig/", "src/cli/command_line", "src/cli/main",
-                 "src/cli/usage_message", "src/cli/verbs.cpp", "src/cli/progress", "src/cli/verbs/doctor", "src/study/calibrate/",
+                 "src/cli/usage_message", "src/cli/verbs.cpp", "src/cli/progress", "src/cli/verbs/doctor", "src/study/calibrate/", "src/study/pages/calibration",
                  "src/study/engines/slurm", "src/study/engines/dask", "src/study/engines/parallel", "src/rig/setup/coil_guard")
 SCHEMA_CALLS = {"check", "note"}  # their argument is a function that returns a message
 # Variables, members and JSON keys that have a message, and lists of messages.
@@ -274,7 +274,7 @@ class Reader:
                 arguments = source.arguments(i)
                 if len(arguments) == sink.arguments and "const" not in arguments[sink.index]:
                     self.keep(arguments[sink.index], source, i, sink.words)
-        for f in source.functions if not source.name.startswith(REPORTS) else []:
+        for f in source.functions:
             if f.name.endswith("_note"):
                 self.returns(f, source)
         for name in SCHEMA_CALLS:

@@ -16,8 +16,8 @@ describe('texts of the program', () => {
     const say = (text: string) => translationBy(catalogue, text);
     expect(say('the file is not 3 um')).toBe('3 µm não é o arquivo');
     expect(say('x is not a number')).toBe('x não é um number');
-    expect(say('x (1.5)')).toBe('x [1.5]');
-    expect(say('x (1+5)')).toBeUndefined();
+    expect(say('axis (1.5)')).toBe('axis [1.5]');
+    expect(say('axis (1+5)')).toBeUndefined();
     expect(say('$& is not $1')).toBe('$1 não é $&');
   });
 });
@@ -33,7 +33,7 @@ describe('messages of several parts', () => {
     'It has {} frames.': 'Tem {} quadros.',
     'few marks': 'poucas marcas',
     '{} marks': '{} marcas',
-    'reading of {}': 'leitura de {}',
+    'two files': 'dois arquivos',
   };
   const catalogue = { texts, titles: {}, templates: templatesOf(texts) };
   const say = (text: string) => translationBy(catalogue, text);
@@ -51,7 +51,12 @@ describe('messages of several parts', () => {
   });
   test('have their place before them, which is translated unless it is a key', () => {
     expect(say('a.toml:3: speed: few marks')).toBe('a.toml:3: speed: poucas marcas');
-    expect(say('reading of speed: few marks')).toBe('leitura de velocidade: poucas marcas');
+    expect(say('two files: few marks')).toBe('dois arquivos: poucas marcas');
+  });
+  test('have parts that are not texts of their own', () => {
+    const parts = { ...catalogue, templates: templatesOf({ ...texts, 'in {}': 'em {}' }) };
+    expect(translationBy(parts, 'unknown key in vitro')).toBe('chave desconhecida em vitro');
+    expect(translationBy(parts, 'in vitro')).toBeUndefined();
   });
   test('have empty values, and quoted values as they are', () => {
     expect(say('unknown key')).toBe('chave desconhecida');

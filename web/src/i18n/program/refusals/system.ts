@@ -1,3 +1,17 @@
+/** Places of messages that are neither keys nor files, in Portuguese, by the English text. */
+export const places: Record<string, string> = {
+  bench: 'bancada',
+  camera: 'câmera',
+  disk: 'disco',
+  'circle fit': 'ajuste do círculo',
+  'coil guard': 'proteção das bobinas',
+  'invalid message': 'mensagem inválida',
+  'invalid request': 'requisição inválida',
+  'parameter search': 'busca de parâmetros',
+  'simulated bench': 'bancada simulada',
+  'standard output': 'saída padrão',
+};
+
 /** Texts of the operating system and of libraries, and single words in messages, in Portuguese, by the English text. */
 export const system: Record<string, string> = {
   // Operating system
@@ -42,6 +56,15 @@ export const system: Record<string, string> = {
   'decimal integer': 'um número inteiro decimal',
   'encountered end-of-file': 'encontrou-se o fim do arquivo',
   'end-of-file': 'o fim do arquivo',
+  integer: 'um número inteiro',
+  string: 'um texto',
+  boolean: 'um valor lógico',
+  array: 'uma lista',
+  table: 'uma tabela',
+  // Parts of messages
+  '{} such as "1 {}"': '{} como "1 {}"',
+  'a number between {} and {}': 'um número entre {} e {}',
+  'an integer between {} and {}': 'um número inteiro entre {} e {}',
   // Single words and phrases
   length: 'comprimento',
   time: 'tempo',
