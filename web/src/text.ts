@@ -2,7 +2,7 @@
 
 import { RequestError } from './connection';
 import type { Say, Word } from './i18n';
-import { textIn } from './i18n/program/catalogue';
+import { placeIn, textIn } from './i18n/program/catalogue';
 import { reportIn } from './i18n/program/report_texts';
 import { micro, microAfterNumber } from './units';
 
@@ -28,7 +28,7 @@ export function jobTitle(title: string, say: Say): string {
 /** A failure as one line: its place, and the reason. */
 export function failureText(t: { where?: string; what?: string; word?: Word }, say: Say): string {
   const what = t.word ? say(t.word) : programText(t.what ?? '', say);
-  return t.where ? `${t.where}: ${what}` : what;
+  return t.where ? `${placeIn(say.language, t.where)}: ${what}` : what;
 }
 
 /** An exception as a negative answer of the program. */
