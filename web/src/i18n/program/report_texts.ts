@@ -26,6 +26,7 @@ export function reportTranslation(texts: Texts, message: (text: string) => strin
 
   function one(text: string): string | undefined {
     if (Object.hasOwn(texts, text)) return texts[text];
+    if (!/\p{L}{2}/u.test(text)) return undefined; // a number
     for (const { english, translation } of templates) {
       const values = english.exec(text)?.slice(1).map((v) => one(v) ?? micro(v));
       let next = 0;
