@@ -8,7 +8,8 @@ in its template. The page translates values, too: a value that is itself a text 
 its own template. Messages are arguments of SINKS and of functions that pass an argument on to a sink, results of the checks
 and notes of a schema, warnings of measurements, and values of HOLDERS and LISTS.
 
---unresolved prints the messages without a literal, with their places: texts of the operating system, a library or a file.
+--unresolved prints the messages that are not in the sources, with their places: texts of the operating system, a library or a
+file. Values of a message whose texts are not in the sources are numbers, names and keys for this program.
 """
 
 import argparse
@@ -17,23 +18,20 @@ import itertools
 import json
 import pathlib
 import re
-import sys
+
+from cpp_source import TEXT_TYPES, Source, Token, closing_of, split, until
 
 # Functions of these folders return parts of reports, which have other translations; their errors are read.
 REPORTS = ("src/study/pages/", "src/study/plot/")
-# Messages of these folders and files appear only in a terminal or in the journal of the coil guard. Jobs run other verbs.
-TERMINAL_ONLY = ("src/guard/", "src/rig/guard/", "src/cli/options/", "src/cli/verbs/rig/", "src/cli/command_line", "src/cli/main",
-                 "src/cli/usage_message", "src/cli/verbs.cpp", "src/cli/progress", "src/cli/verbs/doctor", "src/study/calibrate/", "src/study/pages/calibration",
-                 "src/study/engines/slurm", "src/study/engines/dask", "src/study/engines/parallel", "src/rig/setup/coil_guard")
+# Messages of these folders and files appear only in a terminal or in the journal of the coil guard: jobs of the lab run other
+# verbs, on this machine. The lab does not control the coils of a bench.
+TERMINAL_ONLY = ("src/guard/", "src/rig/guard/", "src/rig/setup/coil_guard", "src/cli/options/", "src/cli/verbs/rig/", "src/cli/verbs/doctor",
+                 "src/cli/command_line", "src/cli/main", "src/cli/usage_message", "src/cli/verbs.cpp", "src/cli/progress", "src/study/calibrate/",
+                 "src/study/pages/calibration", "src/study/engines/slurm", "src/study/engines/dask", "src/study/engines/parallel")
 SCHEMA_CALLS = {"check", "note"}  # their argument is a function that returns a message
 # Variables, members and JSON keys that have a message, and lists of messages.
 HOLDERS = re.compile("what|why|trouble|error|.*reason|note|evidence|advice|warning|doing|rejection|ignored|damage|doubt")
 LISTS = {"notes", "warnings"}
-TEXT_TYPES = {"string", "char", "string_view"}
-NOT_FUNCTIONS = {"if", "for", "while", "switch", "catch", "return", "sizeof", "decltype"}
-TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|^\s*#(?:[^\n]*\\\n)*[^\n]*|R"\((?P<raw>.*?)\)"|"(?P<text>(?:\\.|[^"\\\n])*)"|\'(?:\\.|[^\'\\])+\''
-                   r'|[A-Za-z_]\w*|\d[\w.\']*|::|->|\+=|[=!<>]=|&&|\|\||\S', re.S | re.M)
-PAIRS = {"(": ")", "[": "]", "{": "}"}
 UNITS = {"px", "um", "mm", "cm", "mT", "uT", "nT", "deg", "Hz", "GB", "TB", "MB", "Pa", "bz", "rho"}
 MOST = 24  # combinations of the parts of one message
 # A function or class, its number of arguments, the index of the one that is a message or, without `words`, a part of one, and
@@ -43,115 +41,15 @@ SINKS = {Sink(name, count, index, True, "") for name, count, index in (
     ("Error", 3, 2), ("invalid_argument", 1, 0), ("Verdict", 2, 1), ("LikelyUnits", 2, 0), ("LikelyUnits", 2, 1), ("progress", 3, 0), ("tick", 3, 0))}
 
 
-class Token(str):
-    """A token of C++; `text` is the value of a string literal, otherwise None."""
-
-    text, line = None, 0
-
-
-def unescaped(literal):
-    text = re.sub(r"\\u([0-9a-fA-F]{4})", lambda e: chr(int(e[1], 16)), literal)
-    return re.sub(r"\\(.)", lambda e: {"n": " ", "t": "\t", "r": " "}.get(e[1], e[1]), text)
-
-
-def tokens_of(source):
-    tokens, at, line = [], 0, 1
-    for m in TOKEN.finditer(source):
-        if m[0].startswith(("//", "/*")) or m[0].lstrip().startswith("#"):
-            continue
-        t = Token(m[0] if m[0][0] not in "\"'" and m["raw"] is None else '""')
-        t.text = m["raw"] if m["raw"] is not None else unescaped(m["text"]) if m["text"] is not None else None
-        line += source.count("\n", at, m.start())
-        at = m.start()
-        t.line = line
-        tokens.append(t)
-    return tokens
-
-
-def closing_of(tokens):
-    """Index of the closing bracket of each opening one."""
-    closing, stack = {}, []
-    for i, t in enumerate(tokens):
-        if t in PAIRS:
-            stack.append(i)
-        elif t in PAIRS.values() and stack:
-            closing[stack.pop()] = i
-    return closing
-
-
-def split(tokens, separator):
-    """Parts between separators that are outside of all brackets."""
-    parts, depth = [[]], 0
-    for t in tokens:
-        depth += (t in PAIRS) - (t in PAIRS.values())
-        if depth == 0 and t == separator:
-            parts.append([])
-        else:
-            parts[-1].append(t)
-    return parts
-
-
-def until(tokens, start, ends):
-    """Tokens from `start` to the first of `ends`, or to a closing bracket, outside of all brackets."""
-    depth = 0
-    for i in range(start, len(tokens)):
-        if depth == 0 and (tokens[i] in ends or tokens[i] in PAIRS.values()):
-            return tokens[start:i]
-        depth += (tokens[i] in PAIRS) - (tokens[i] in PAIRS.values())
-    return tokens[start:]
-
-
-class Function:
-    """A function or lambda with a body."""
-
-    def __init__(self, name, text, parameters, start, end):
-        self.name, self.is_text, self.start, self.end = name, text, start, end
-        kinds = [(next((t for t in reversed(split(p, "=")[0]) if t.isidentifier()), ""), bool(TEXT_TYPES & set(p))) for p in split(parameters, ",")]
-        self.texts = {n: i for i, (n, is_text) in enumerate(kinds) if is_text}
-        self.count = len(kinds)
-
-
-class Source:
-    def __init__(self, name, text):
-        self.name, self.tokens = name, tokens_of(text)
-        self.closing = closing_of(self.tokens)
-        self.opening = {b: a for a, b in self.closing.items()}
-        self.functions = [f for f in map(self.function_at, self.closing) if f]
-        self.named, self.places = {}, {}
-        for f in self.functions:
-            if f.is_text:
-                self.named.setdefault(str(f.name), []).append(f)
-        for i, t in enumerate(self.tokens[:-3]):
-            self.places.setdefault(str(t), []).append(i)
-
-    def function_at(self, opening):
-        t = self.tokens
-        body = self.closing[opening] + 1
-        while body < len(t) and (t[body].isidentifier() or t[body] in ("->", "::", "<", ">", "*", "&")) and t[body] != "return":
-            body += 1
-        before = t[opening - 1] if opening else Token("")
-        if t[opening] != "(" or body not in self.closing or t[body] != "{" or before in NOT_FUNCTIONS:
-            return None
-        parameters = t[opening + 1:self.closing[opening]]
-        if before == "]":  # a lambda has the name of its variable, or of the function that receives it
-            start = self.opening.get(opening - 1, 2)
-            return Function(t[start - 2] if t[start - 1] in ("=", "(") else "", True, parameters, body, self.closing[body])
-        first = next((i for i in range(opening - 1, 0, -1) if t[i] in (";", "}", "{")), 0)
-        return Function(before, bool(TEXT_TYPES & set(t[first:opening])), parameters, body, self.closing[body])
-
-    def arguments(self, index):
-        """Arguments of the call or the braces after a token."""
-        opening = index + 1
-        return split(self.tokens[opening + 1:self.closing[opening]], ",") if self.tokens[opening] in ("(", "{") and opening in self.closing else []
-
-    def function_of(self, index):
-        return [f for f in self.functions if f.start < index < f.end]
-
-
 class Reader:
     def __init__(self, sources):
         self.sources, self.templates, self.unresolved = sources, {}, {}
         self.read, self.defined, self.sinks = set(), {}, set(SINKS)
+        self.functions = {}
+        for source in sources:
+            for f in source.functions:
+                if f.is_text:
+                    self.functions.setdefault(str(f.name), []).append((source, f))
 
     def values(self, tokens):
         """Templates of an expression."""
@@ -215,7 +113,7 @@ class Reader:
             if has_words(v) and (words or " " in v):
                 self.templates.setdefault(v, place)
         known = [self.names(hole, source, index, words and found == ["{}"]) for hole in holes]
-        if words and found == ["{}"] and not any(known) and len(tokens) and tokens != ["{", "}"]:
+        if words and found == ["{}"] and not any(known) and tokens and tokens != ["{", "}"]:
             self.unresolved[place] = " ".join(t if t.text is None else f'"{t.text}"' for t in tokens)
 
     def names(self, hole, source, index, words):
@@ -233,8 +131,8 @@ class Reader:
             return self.defined[key]
         self.defined[key] = False
         found = [self.variable(i, source) for i in source.places.get(name, [])]
-        for s in self.sources if called else [source]:
-            for f in s.named.get(name, []) if s is source or not s.name.startswith(REPORTS) else []:
+        for s, f in self.functions.get(name, []):
+            if s is source or (called and not s.name.startswith(REPORTS)):
                 self.returns(f, s, False)
                 found.append(True)
         self.defined[key] = any(found)
@@ -246,13 +144,11 @@ class Reader:
         after = source.closing.get(i + 1, i) + 1 if t[i + 1] == "[" else i + 1
         if t[after] in ("=", "+=") and t[after + 1] == "{":
             inside = t[after + 2:source.closing.get(after + 1, after)]
-            for n, group in itertools.groupby(inside, lambda x: x.text is not None):
-                texts = list(group)
-                if n:
-                    self.keep(texts, source, i, False)
-                for x in texts if not n else []:
-                    if x.startswith("k"):
-                        self.define(str(x), source, False)
+            for is_text, group in itertools.groupby(inside, lambda x: x.text is not None):
+                if is_text:
+                    self.keep(list(group), source, i, False)
+                for constant in [x for x in group if x.startswith("k")]:
+                    self.define(str(constant), source, False)
         elif t[after] in ("=", "+="):
             self.keep(until(t, after + 1, {";", ","}), source, i, False)
         elif ":" in t[i + 1:i + 3] and t[i - 1] in (",", "&", "auto", "*"):
@@ -269,7 +165,7 @@ class Reader:
     def scan(self, source):
         """Messages of one source, by the sinks that are known."""
         t = source.tokens
-        for sink in [s for s in self.sinks if s.file in ("", source.name)]:
+        for sink in sorted(s for s in self.sinks if s.file in ("", source.name)):
             for i in source.places.get(sink.name, []):
                 arguments = source.arguments(i)
                 if len(arguments) == sink.arguments and "const" not in arguments[sink.index]:
@@ -286,23 +182,33 @@ class Reader:
 
     def scan_fields(self, source):
         """Messages that variables, lists and fields of one source have."""
-        t, warns = source.tokens, {"Warning", "warnings"} & set(source.places)
+        t = source.tokens
         for i, name in enumerate(t[:-3]):
-            if name == "{":  # a warning {aspect, what, evidence, advice, quality}, or an answer {status, why}
-                arguments = source.arguments(i - 1)
-                sentences = [any(x.text and " " in x.text.strip() for x in a) for a in arguments]
-                if 2 < len(arguments) < 6 and warns and sentences[1] and (arguments[0][-1:] == ["aspect"] or (arguments[0][0].text or "-") > "a"):
-                    for a in arguments[1:4]:
-                        self.keep(a, source, i)
-                elif len(arguments) == 3 and arguments[0][:1] in (["Errc"], ["code"]) or sentences[1:2] == [True] and t[i - 1] == "return":
-                    self.keep(arguments[min(2, len(arguments) - 1)], source, i)
-            if name == "Progress" and t[i + 1].isidentifier():
-                for a in until(t, i, {";"}):
-                    self.keep([a] if a.text else [], source, i)
-            if (HOLDERS.fullmatch(name) and t[i + 1] in ("=", "+=")) or (HOLDERS.fullmatch(name.text or "") and (t[i + 1] == "," or t[i + 1:i + 3] == ["]", "="])):
-                self.keep(until(t, i + 2 + (t[i + 1] == "]"), {";", ","}), source, i, False)
-            if name in LISTS and t[i + 1] == "." and t[i + 2] in ("push_back", "emplace_back") and t[i + 4] != "{":
+            if name == "{":
+                self.braces(source, i)
+            elif name == "Progress" and t[i + 1].isidentifier():
+                for word in until(t, i, {";"}):
+                    self.keep([word] if word.text else [], source, i)
+            elif HOLDERS.fullmatch(name.text or name):
+                after = "".join(t[i + 1:i + 3]) if name.text else t[i + 1]
+                if after.startswith((",", "]=")) if name.text else after in ("=", "+="):
+                    self.keep(until(t, i + 2 + (after == "]="), {";", ","}), source, i, False)
+            elif name in LISTS and t[i + 1] == "." and t[i + 2] in ("push_back", "emplace_back") and t[i + 4] != "{":
                 self.keep(t[i + 4:source.closing[i + 3]], source, i)
+
+    def braces(self, source, i):
+        """A warning {aspect, what, evidence, advice, quality}, an error {code, where, what}, or a result such as {status, why}."""
+        arguments = source.arguments(i - 1)
+        sentences = [any(x.text and " " in x.text.strip() for x in a) for a in arguments]
+        if len(arguments) < 2 or not arguments[0]:
+            return
+        is_aspect = arguments[0][-1] == "aspect" or (arguments[0][0].text or "-") > "a"
+        if source.has_warnings and 2 < len(arguments) < 6 and sentences[1] and is_aspect:
+            for a in arguments[1:4]:
+                self.keep(a, source, i)
+        elif (len(arguments) == 3 and arguments[0][0] in ("Errc", "code")) or (sentences[1] and source.tokens[i - 1] == "return"):
+            message = arguments[min(2, len(arguments) - 1)]
+            self.keep(message if message[:1] != ["{"] else [], source, i)
 
     def all(self):
         for source in self.sources:
@@ -313,7 +219,7 @@ class Reader:
             known = len(self.sinks)
             for source in self.sources:
                 self.scan(source)
-        return self.templates
+        return dict(sorted(self.templates.items()))
 
 
 def has_words(template):
@@ -324,8 +230,8 @@ def has_words(template):
 
 def sources_of(root):
     files = sorted(p for p in (root / "src").rglob("*") if p.suffix in (".cpp", ".h"))
-    named = [(p.relative_to(root).as_posix(), p) for p in files]
-    return [Source(name, p.read_text()) for name, p in named if not name.startswith(TERMINAL_ONLY)]
+    named = {p.relative_to(root).as_posix(): p for p in files}
+    return [Source(name, p.read_text()) for name, p in named.items() if not name.startswith(TERMINAL_ONLY)]
 
 
 def main():
@@ -335,8 +241,7 @@ def main():
     options = parser.parse_args()
     reader = Reader(sources_of(options.root))
     templates = reader.all()
-    json.dump(reader.unresolved if options.unresolved else templates, sys.stdout, indent=1, ensure_ascii=False)
-    print()
+    print(json.dumps(reader.unresolved if options.unresolved else templates, indent=1, ensure_ascii=False))
 
 
 if __name__ == "__main__":

@@ -27,6 +27,12 @@ describe.skipIf(!existsSync(kPython))('the messages of the program', () => {
     const untranslated = Object.keys(templates).filter((english) => translationBy(catalogue, english.replaceAll('{}', '17'), true) === undefined);
     expect(untranslated).toEqual([]);
   });
+  test('have no English words left', () => {
+    const words = /\b(the|is|are|was|were|must|not|with|and|of|this|that|has|have|give|it|its|cannot|an)\b/;
+    // Quoted texts, options, keys and commands are not translated.
+    const plain = (text: string) => text.replace(/"[^"]*"|`[^`]*`|--?\S+|\b\w+[._]\w+/g, '');
+    expect(Object.entries(refusals).filter(([, translation]) => words.test(plain(translation)))).toEqual([]);
+  });
   test('translations of other texts were removed', () => {
     const stale = Object.keys(refusals).filter((english) => !Object.hasOwn(system, english) && !Object.hasOwn(templates, english));
     expect(stale).toEqual([]);

@@ -127,9 +127,9 @@ function translated(catalogue: Catalogue, text: string, isValue: boolean): Trans
     const inside = translated(catalogue, core, isValue);
     return inside && { ...inside, text: before + inside.text + after };
   }
-  const whole = byTemplate(catalogue, text, isValue);
-  if (whole?.complete) return whole;
-  const found = [whole, inParts(catalogue, text), afterPlace(catalogue, text)].filter((one) => one !== undefined);
+  const matched = byTemplate(catalogue, text, isValue);
+  if (matched?.complete) return matched;
+  const found = [matched, inParts(catalogue, text), afterPlace(catalogue, text)].filter((one) => one !== undefined);
   return found.find((one) => one.complete) ?? found[0];
 }
 
