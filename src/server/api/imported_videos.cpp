@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "core/error.h"
 
 namespace faba {
@@ -21,14 +19,10 @@ bool is_imported(const fs::path& folder, const std::string& file) {
 
 // A job of the experiment may read all of its videos.
 void check_unused(const LabServices& lab, const std::string& experiment, const std::string& file) {
-  const std::string folder = folder_of(experiment), path = folder + "/" + file;
-  for (const Job& j : lab.jobs.jobs()) {
-    if (is_over(j)) continue;
-    const auto names = [&](const std::string& word) { return word == folder || word == path; };
-    if (j.out.string().starts_with(folder + "/") || std::any_of(j.words.begin(), j.words.end(), names))
+  for (const Job& j : lab.jobs.jobs())
+    if (job_uses(j, folder_of(experiment)))
       throw Error(Errc::usage, file,
-                  fmt::format("the job \"{}\" uses this video; wait until it ends or cancel it", j.title));
-  }
+                  fmt::format("the job \"{}\" uses this experiment; wait until it ends or cancel it", j.title));
 }
 
 }  // namespace

@@ -134,13 +134,15 @@ TEST_CASE("a file that was not imported, or is used elsewhere, is not deleted") 
   CHECK(lab.ask("GET", "/api/trash").empty());
 }
 
-TEST_CASE("a video that a job reads is not deleted") {
+TEST_CASE("no video is deleted while a job reads the experiment") {
   Lab lab;
-  for (const char* word : {"experiments/x/videos/a.avi", "experiments/x"}) {
-    const int job = lab.jobs.add({.title = "track: a", .words = {"1000", word}, .page = "a", .out = "b"});
-    CHECK(has(lab.remove("videos/a.avi"), "the job \"track: a\" uses this video"));
+  const int first = lab.jobs.add({.title = "first", .words = {"1000"}, .page = "a", .out = "b"});
+  for (const char* word : {"./experiments/x/videos/a.avi", "./experiments/x", "--noise=./experiments/x/videos/b.avi"}) {
+    const int job = lab.jobs.add({.title = "track: a", .words = {word}, .page = "a", .out = "b"});
+    CHECK(has(lab.remove("videos/a.avi"), "the job \"track: a\" uses this experiment"));
     lab.jobs.cancel(job);
     while (!is_over(*lab.jobs.job(job))) usleep(10000);
   }
   CHECK(lab.remove("videos/a.avi")["bytes"] == 1000);
+  lab.jobs.cancel(first);
 }

@@ -68,7 +68,7 @@ function fromJson(text: string): VideoOverlays | null {
 
 /** The output of `faba activity --json`, whose directions are clockwise, for a video or the first one; null for another object. */
 export function ofActivity(j: any, file?: string): VideoOverlays | null {
-  const a = Array.isArray(j?.videos) ? j.videos.find((v: any) => file === undefined || v.video === file) : undefined;
+  const a = Array.isArray(j?.videos) ? j.videos.find((v: any) => file === undefined || v.video === file || v.video === `./${file}`) : undefined;
   if (!a || !Array.isArray(a.segments)) return null;
   const segments = a.segments.map((s: any) => ({ from_s: s.t0_s, to_s: s.t1_s, direction_deg: flipped(s.direction_deg) }));
   return { segments, reversal_s: a.response?.reversal_s ?? null };
