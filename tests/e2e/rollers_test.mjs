@@ -104,8 +104,8 @@ async function identify(end) {
   await page.getByRole('button', { name: 'Identify a model' }).click();
   await page.getByText('Field segments of the experiment: 2').waitFor();
   await page.getByRole('group', { name: 'Add a model' }).getByRole('button', { name: 'dipole' }).click();
-  await page.getByLabel('lowest').fill('0 um/s');
-  await page.getByLabel('highest').fill('150 um/s');
+  await page.getByRole('textbox', { name: /^lowest/ }).fill('0 um/s');
+  await page.getByRole('textbox', { name: /^highest/ }).fill('150 um/s');
   await page.getByLabel('Boundary boundary', { exact: true }).selectOption('none');
   await page.getByLabel('Look look', { exact: true }).selectOption('positions');
   await page.getByLabel('Simulations simulations', { exact: true }).fill('100');
