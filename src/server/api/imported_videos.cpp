@@ -14,15 +14,17 @@ std::string folder_of(const std::string& experiment) { return "experiments/" + e
 // A file in the folder videos/ itself; links and other folders belong to the user.
 bool is_imported(const fs::path& folder, const std::string& file) {
   std::error_code ec;
-  return fs::path(file).parent_path() == "videos" && fs::is_regular_file(fs::symlink_status(folder / file, ec));
+  return fs::path(file).parent_path() == "videos" &&
+         fs::is_regular_file(fs::symlink_status(folder / file, ec));
 }
 
 // A job of the experiment may read all of its videos.
 void check_unused(const LabServices& lab, const std::string& experiment, const std::string& file) {
   for (const Job& j : lab.jobs.jobs())
     if (job_uses(j, folder_of(experiment)))
-      throw Error(Errc::usage, file,
-                  fmt::format("the job \"{}\" uses this experiment; wait until it ends or cancel it", j.title));
+      throw Error(
+          Errc::usage, file,
+          fmt::format("the job \"{}\" uses this experiment; wait until it ends or cancel it", j.title));
 }
 
 }  // namespace
@@ -51,8 +53,9 @@ Trash::Item remove_imported_video(const LabServices& lab, const std::string& exp
                             fmt::join(about["used_by"].get<std::vector<std::string>>(), ", ")));
   check_unused(lab, experiment, file);
   ExperimentStore& store = lab.experiments;
-  const Trash::Item item = lab.trash.take(folder_of(experiment) + "/" + file, {},
-                                          [&store, experiment, entry] { store.restore_video(experiment, entry); });
+  const Trash::Item item =
+      lab.trash.take(folder_of(experiment) + "/" + file, {},
+                     [&store, experiment, entry] { store.restore_video(experiment, entry); });
   try {
     store.remove_video(experiment, file);
   } catch (const Error&) {

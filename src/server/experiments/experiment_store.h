@@ -34,8 +34,8 @@ class ExperimentStore {
   /// Applies the `changes` of a request. The answer of read(), or {"conflicts": [{"path", "now"}]} with it if
   /// a change was refused. Throws Error(usage) if the changed experiment would be invalid.
   Json change(const std::string& name, const Json& asked);
-  /// Adds a video. `file`: relative to the folder of the experiment, or absolute; `drop`: its drop, ignored if
-  /// the experiment has no such drop.
+  /// Adds a video. `file`: relative to the folder of the experiment, or absolute; `drop`: its drop, ignored
+  /// if the experiment has no such drop.
   void add_video(const std::string& name, const std::string& file, const std::string& drop);
   /// The entry of a video. Throws Error(input) if the experiment has no such video.
   VideoEntry video(const std::string& name, const std::string& file) const;

@@ -36,9 +36,7 @@ constexpr double kLeastScale = 1e-3, kMostScale = 1e3;  // um/px
 FieldInfo error_info() {
   return {.min = 0, .max = kMostScale, .doc = "Standard error of um_per_px, if the scale was measured"};
 }
-FieldInfo source_info() {
-  return {.doc = fmt::format("Origin of the scale: {}", fmt::join(kSources, ", "))};
-}
+FieldInfo source_info() { return {.doc = fmt::format("Origin of the scale: {}", fmt::join(kSources, ", "))}; }
 
 // What is wrong with the scale of an experiment or video; empty: nothing.
 template <class T>

@@ -46,12 +46,12 @@ struct ExperimentVideo {
 /// An experiment: a folder with experiment.toml, videos and results.
 struct Experiment {
   std::string title, note, objective;
-  std::optional<double> um_per_px;  ///< empty: not known, and lengths are in px
+  std::optional<double> um_per_px;     ///< empty: not known, and lengths are in px
   std::optional<double> um_per_px_se;  ///< its standard error; empty: not known
   /// "calibration" (picture of a ruler), "ruler" (a line that was drawn over a known length), "typed" or
   /// "metadata"; empty: not stated.
   std::string um_per_px_source;
-  std::string noise;                ///< video of a dead sample, for the threshold of the flow
+  std::string noise;  ///< video of a dead sample, for the threshold of the flow
   std::vector<ExperimentDrop> drops;
   std::vector<ExperimentVideo> videos;
 };

@@ -126,8 +126,9 @@ TEST_CASE("a file that was not imported, or is used elsewhere, is not deleted") 
   CHECK(has(lab.remove("videos/a.avi"), "is used by the experiment y"));
 
   fs::create_symlink(lab.root / "films/c.avi", lab.root / "experiments/x/videos/link.avi");
-  write_file(lab.root / "experiments/x/experiment.toml",
-             std::string("noise = \"videos/b.avi\"\n") + kExperiment + "[[video]]\nfile = \"videos/link.avi\"\n");
+  write_file(
+      lab.root / "experiments/x/experiment.toml",
+      std::string("noise = \"videos/b.avi\"\n") + kExperiment + "[[video]]\nfile = \"videos/link.avi\"\n");
   CHECK(has(lab.remove("videos/b.avi"), "is used by the experiment x"));
   CHECK(has(lab.remove("videos/link.avi"), "is not in the folder videos/"));
   CHECK(lab.videos().size() == before.size() + 1);
@@ -137,7 +138,8 @@ TEST_CASE("a file that was not imported, or is used elsewhere, is not deleted") 
 TEST_CASE("no video is deleted while a job reads the experiment") {
   Lab lab;
   const int first = lab.jobs.add({.title = "first", .words = {"1000"}, .page = "a", .out = "b"});
-  for (const char* word : {"./experiments/x/videos/a.avi", "./experiments/x", "--noise=./experiments/x/videos/b.avi"}) {
+  for (const char* word :
+       {"./experiments/x/videos/a.avi", "./experiments/x", "--noise=./experiments/x/videos/b.avi"}) {
     const int job = lab.jobs.add({.title = "track: a", .words = {word}, .page = "a", .out = "b"});
     CHECK(has(lab.remove("videos/a.avi"), "the job \"track: a\" uses this experiment"));
     lab.jobs.cancel(job);

@@ -135,7 +135,8 @@ TEST_CASE("a run that is being written or used by a job is not deleted") {
   const int running = lab.jobs.add({.title = "first", .words = {"1000"}, .page = "a", .out = "b"});
   // As the page starts jobs, in the queue.
   for (const char* word : {"./runs/one", "--reference=./runs/one", "./runs/one.toml"}) {
-    const int job = lab.jobs.add({.title = "compare: one", .words = {"compare", word}, .page = "a", .out = "b"});
+    const int job =
+        lab.jobs.add({.title = "compare: one", .words = {"compare", word}, .page = "a", .out = "b"});
     CHECK_THROWS_WITH_AS(lab.runs.remove("one"), doctest::Contains("the job \"compare: one\" uses this run"),
                          const Error&);
     lab.jobs.cancel(job);

@@ -55,7 +55,8 @@ void print_response(const VideoActivity& a) {
                r.fraction_method);
   const std::optional<Measured> um = speed_um_s(a);
   if (r.speed_px_s)
-    fmt::print("  speed {} {}/s (90 % interval)\n", with_interval(um ? *um : *r.speed_px_s), um ? "um" : "px");
+    fmt::print("  speed {} {}/s (90 % interval)\n", with_interval(um ? *um : *r.speed_px_s),
+               um ? "um" : "px");
 }
 
 void print_video(const VideoActivity& a) {
