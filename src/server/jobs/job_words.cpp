@@ -121,7 +121,8 @@ void check_keys(const JobKind& kind, const Json& values) {
                   fmt::format("is not a value of {}; it must be one of {}", kind.verb_text(), known));
 }
 
-// A name that starts with a dash is no option; files of allowed folders have absolute paths.
+// With "./" a name that starts with a dash does not become an option. Files of allowed folders have absolute
+// paths.
 std::string word_of_file(const std::string& file) { return file.starts_with('/') ? file : "./" + file; }
 
 }  // namespace
