@@ -8,6 +8,12 @@ namespace {
 
 constexpr std::array<const char*, 5> kStates = {"waiting", "running", "done", "failed", "cancelled"};
 
+std::string text_in(const Json& result, const char* key) {
+  return result.is_object() && result.contains(key) && result[key].is_string()
+             ? result[key].get<std::string>()
+             : "";
+}
+
 }  // namespace
 
 Json job_json(const Job& j) {
@@ -26,7 +32,8 @@ Json job_json(const Job& j) {
           {"of", j.of},
           {"seconds", j.seconds},
           {"ended", j.ended},
-          {"error", j.error}};
+          {"error", j.error},
+          {"quality", text_in(j.result, "quality")}};
 }
 
 Job::State job_state(const std::string& word) {

@@ -28,7 +28,7 @@ struct Job {
   std::string error = {};         ///< error message
   Json result = {};               ///< output of --json
 };
-/// Everything except the result, which can be large.
+/// Everything except the result, which can be large; of it the quality, empty without one.
 Json job_json(const Job& j);
 /// The state of a word of job_json(); failed for any other word.
 Job::State job_state(const std::string& word);
