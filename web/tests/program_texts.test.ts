@@ -1,6 +1,6 @@
 import { beforeAll, describe, expect, test } from 'vitest';
 import { loadTexts, templatesOf, textIn, titleIn, translationBy } from '../src/i18n/program/catalogue';
-import { texts, titles } from '../src/i18n/program/pt';
+import { reports, texts, titles } from '../src/i18n/program/pt';
 
 beforeAll(() => loadTexts('pt'));
 
@@ -23,8 +23,8 @@ describe('texts of the program', () => {
 });
 
 describe('the Portuguese catalogue', () => {
-  const values = (text: string) => (text.match(/\{\d*\}/g) ?? []).length;
-  test.each(Object.entries({ ...texts, ...titles }))('%s', (english, translation) => {
+  const values = (text: string) => (text.match(/\{[#\d]*\}/g) ?? []).length;
+  test.each(Object.entries({ ...texts, ...titles, ...reports }))('%s', (english, translation) => {
     expect(translation.trim()).not.toBe('');
     expect(values(translation)).toBe(values(english));
   });

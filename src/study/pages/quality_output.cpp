@@ -53,4 +53,9 @@ std::string quality_markup(const std::vector<Warning>& warnings) {
   return out;
 }
 
+std::string note_markup(const std::string& note, const std::string& file, const char* style) {
+  const std::string where = file.empty() ? "" : escape_markup(file) + ": ";
+  return fmt::format("<p class=\"{}\">{}{}.</p>\n", style, where, "<span>" + escape_markup(note) + "</span>");
+}
+
 }  // namespace faba
