@@ -1,0 +1,33 @@
+export const en = {
+  'quality.of': 'Quality: {quality}',
+  'quality.good.help': 'No violated assumption of the measurement was detected.',
+  'quality.doubtful.help': 'An assumption of the measurement is violated; the error may be larger than the stated interval. The result has the reasons.',
+  'quality.poor.help': 'An assumption that the measurement needs is violated; the result must be expected to be wrong. The result has the reasons.',
+  'quality.evidence': 'Evidence',
+  'quality.advice': 'Advice',
+  'result.experiment': 'Experiment {name}',
+  'job.ended': 'ended {t}',
+  'job.of_experiment': 'The job uses the experiment {name} with its videos and values.',
+  'job.counter_clockwise': 'counter-clockwise',
+  'experiments.results.count': 'Results: {n}',
+  'experiments.no_results': 'There are no results yet. Choose a measurement above.',
+  'experiments.track': 'Tracks',
+  'experiments.track.of': 'Tracks of {name}',
+} as const;
+
+export const pt: Record<keyof typeof en, string> = {
+  'quality.of': 'Qualidade: {quality}',
+  'quality.good.help': 'Nenhuma suposição violada da medição foi detectada.',
+  'quality.doubtful.help': 'Uma suposição da medição é violada; o erro pode ser maior que o intervalo indicado. O resultado tem os motivos.',
+  'quality.poor.help': 'Uma suposição de que a medição precisa é violada; deve-se esperar que o resultado esteja errado. O resultado tem os motivos.',
+  'quality.evidence': 'Evidência',
+  'quality.advice': 'Recomendação',
+  'result.experiment': 'Experimento {name}',
+  'job.ended': 'terminou {t}',
+  'job.of_experiment': 'A tarefa usa o experimento {name} com os seus vídeos e valores.',
+  'job.counter_clockwise': 'sentido anti-horário',
+  'experiments.results.count': 'Resultados: {n}',
+  'experiments.no_results': 'Ainda não há resultados. Escolha uma medição acima.',
+  'experiments.track': 'Trajetórias',
+  'experiments.track.of': 'Trajetórias de {name}',
+};
