@@ -1,5 +1,5 @@
 import { describe, expect, test } from 'vitest';
-import { resultsOf } from '../src/pages/experiments/experiment';
+import { copiedField, resultsOf } from '../src/pages/experiments/experiment';
 import { qualityOf, titleOf } from '../src/quality/quality';
 import { experimentOf } from '../src/results/result';
 
@@ -26,4 +26,12 @@ describe('results and their experiment', () => {
     const jobs = [{ out: 'experiments/a/results/1', words: [] }, { out: 'experiments/ab/results/1', words: [] }, { out: 'runs/2', words: ['track', 'experiments/a/videos/1.avi'] }];
     expect(resultsOf(jobs, 'a')).toEqual([jobs[0], jobs[2]]);
   });
+});
+
+test('the field of a video is copied to the others, where it differs', () => {
+  const videos = [{ file: 'a', exposure: '1 s', reversal: '20 s', field_direction: '180 deg' }, { file: 'b', exposure: '2 s', reversal: '20 s', to: '30 s' }];
+  expect(copiedField(videos[0], videos)).toEqual([
+    { path: ['video', 'b', 'to'], to: undefined },
+    { path: ['video', 'b', 'field_direction'], to: '180 deg' },
+  ]);
 });

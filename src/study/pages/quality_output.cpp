@@ -1,6 +1,9 @@
 #include "study/pages/quality_output.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "core/toml.h"
@@ -9,17 +12,36 @@
 namespace faba {
 namespace {
 
+// The same warning about several videos, with the evidence of each.
+struct WarningGroup {
+  Warning first;
+  std::vector<std::string> evidence;
+};
+
+std::vector<WarningGroup> grouped(const std::vector<Warning>& warnings) {
+  std::vector<WarningGroup> groups;
+  for (const Warning& w : warnings) {
+    const auto same = std::find_if(groups.begin(), groups.end(), [&](const WarningGroup& g) {
+      return g.first.aspect == w.aspect && g.first.what == w.what && g.first.advice == w.advice;
+    });
+    WarningGroup& group = same == groups.end() ? groups.emplace_back(WarningGroup{w, {}}) : *same;
+    if (!w.evidence.empty()) group.evidence.push_back(w.evidence);
+  }
+  return groups;
+}
+
 // Each text is an element of its own, so that a page can translate it.
-std::string warning_markup(const Warning& w) {
+std::string warning_markup(const WarningGroup& group) {
+  const Warning& w = group.first;
   std::string out = fmt::format("<div class=\"warning\">\n<p><b>{}</b></p>\n<p class=\"sentence\">{}</p>\n",
                                 title_of_aspect(w.aspect), escape_markup(w.what));
-  if (w.evidence.empty() && w.advice.empty()) return out + "</div>\n";
-  out += "<dl>\n";
-  if (!w.evidence.empty())
-    out += fmt::format("<dt>Evidence</dt><dd class=\"sentence\">{}</dd>\n", escape_markup(w.evidence));
+  std::string parts;
+  for (const std::string& evidence : group.evidence)
+    parts += fmt::format("<dd class=\"sentence\">{}</dd>\n", escape_markup(evidence));
+  if (!parts.empty()) parts = "<dt>Evidence</dt>" + parts;
   if (!w.advice.empty())
-    out += fmt::format("<dt>Advice</dt><dd class=\"sentence\">{}</dd>\n", escape_markup(w.advice));
-  return out + "</dl>\n</div>\n";
+    parts += fmt::format("<dt>Advice</dt><dd class=\"sentence\">{}</dd>\n", escape_markup(w.advice));
+  return out + (parts.empty() ? "" : "<dl>\n" + parts + "</dl>\n") + "</div>\n";
 }
 
 }  // namespace
@@ -49,7 +71,7 @@ std::string quality_markup(const std::vector<Warning>& warnings) {
   std::string out = fmt::format(
       "<p class=\"quality\"><b>Quality of the measurement: {}</b></p>\n<p class=\"note\">{}.</p>\n",
       word_of(quality), meaning_of(quality));
-  for (const Warning& w : warnings) out += warning_markup(w);
+  for (const WarningGroup& group : grouped(warnings)) out += warning_markup(group);
   return out;
 }
 

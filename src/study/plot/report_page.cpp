@@ -32,7 +32,7 @@ text-wrap:balance}
 .warning p{margin:0}
 .warning dl{display:grid;grid-template-columns:max-content 1fr;gap:.1rem .9rem;margin:.3rem 0 0}
 .warning dt{color:var(--muted)}
-.warning dd{margin:0}
+.warning dd{margin:0;grid-column:2}
 .sentence::first-letter{text-transform:uppercase}
 .cards{display:grid;grid-template-columns:repeat(auto-fit,minmax(10.5rem,1fr));gap:.8rem;margin:1.6rem 0 0;
 padding:0}

@@ -36,5 +36,9 @@ TEST_CASE("a page explains the quality and shows title, evidence and advice of a
   CHECK(bad.find("<b>Frame rate</b>") != std::string::npos);
   CHECK(bad.find("<dt>Advice</dt><dd class=\"sentence\">use 60 Hz</dd>") != std::string::npos);
   CHECK(bad.find("Evidence") == std::string::npos);
+  const std::string both =
+      quality_markup({{"focus", "blurred", "a: 3", "focus"}, {"focus", "blurred", "b: 4", "focus"}});
+  CHECK(both.find("blurred") == both.rfind("blurred"));
+  CHECK(both.find("a: 3</dd>\n<dd class=\"sentence\">b: 4") != std::string::npos);
   CHECK(title_of_aspect("of_no_list") == "of no list");
 }

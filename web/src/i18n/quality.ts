@@ -11,6 +11,9 @@ export const en = {
   'job.counter_clockwise': 'counter-clockwise',
   'experiments.results.count': 'Results: {n}',
   'experiments.no_results': 'There are no results yet. Choose a measurement above.',
+  'experiments.next': 'Add a drop and choose the polarity of its cells, import its videos, and state air exposure, field reversal and field of each. Then the measurements are below the videos.',
+  'experiments.copy': 'Copy to all videos',
+  'experiments.copy.of': 'Copy the field reversal, the part and the field of {name} to all videos',
   'experiments.track': 'Tracks',
   'experiments.track.of': 'Tracks of {name}',
 } as const;
@@ -28,6 +31,9 @@ export const pt: Record<keyof typeof en, string> = {
   'job.counter_clockwise': 'sentido anti-horário',
   'experiments.results.count': 'Resultados: {n}',
   'experiments.no_results': 'Ainda não há resultados. Escolha uma medição acima.',
+  'experiments.next': 'Adicione uma gota e escolha a polaridade das suas células, importe os vídeos dela e indique de cada um a exposição ao ar, a inversão do campo e o campo. Depois as medições ficam abaixo dos vídeos.',
+  'experiments.copy': 'Copiar para todos os vídeos',
+  'experiments.copy.of': 'Copiar a inversão do campo, o trecho e o campo de {name} para todos os vídeos',
   'experiments.track': 'Trajetórias',
   'experiments.track.of': 'Trajetórias de {name}',
 };
