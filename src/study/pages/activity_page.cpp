@@ -303,8 +303,12 @@ std::vector<Figure> activity_figures(const ActivityResult& r) {
 std::string activity_page(const ActivityResult& r, const Provenance& provenance) {
   std::string out = fmt::format("<h1>Activity</h1>\n<p class=\"lead\">{}</p>\n", escape_markup(lead(r)));
   out += quality_markup(all_warnings(r));
+  std::string notes;
   for (const VideoActivity& a : r.videos)
-    for (const std::string& note : a.notes) out += note_markup(note, title_of(a), "note");
+    for (const std::string& note : a.notes) notes += note_markup(note, title_of(a), "note");
+  if (r.videos.size() > 1 && !notes.empty())
+    notes = "<details>\n<summary>Notes</summary>\n" + notes + "</details>\n";
+  out += notes;
   int number = 0;
   for (const Figure& f : activity_figures(r))
     out += fmt::format(
