@@ -37,7 +37,7 @@ std::string warning_markup(const WarningGroup& group) {
                                 title_of_aspect(w.aspect), escape_markup(w.what));
   std::string parts;
   for (const std::string& evidence : group.evidence)
-    parts += fmt::format("<dd class=\"sentence\">{}</dd>\n", escape_markup(evidence));
+    parts += fmt::format("<dd>{}</dd>\n", escape_markup(evidence));
   if (!parts.empty()) parts = "<dt>Evidence</dt>" + parts;
   if (!w.advice.empty())
     parts += fmt::format("<dt>Advice</dt><dd class=\"sentence\">{}</dd>\n", escape_markup(w.advice));
