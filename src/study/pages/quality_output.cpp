@@ -76,8 +76,8 @@ std::string quality_markup(const std::vector<Warning>& warnings) {
 }
 
 std::string note_markup(const std::string& note, const std::string& file, const char* style) {
-  const std::string where = file.empty() ? "" : span(file) + ": ";
-  return fmt::format("<p class=\"{}\">{}{}.</p>\n", style, where, span(note));
+  const std::string where = file.empty() ? "" : fmt::format("<span>{}</span>: ", escape_markup(file));
+  return fmt::format("<p class=\"{}\">{}<span>{}</span>.</p>\n", style, where, escape_markup(note));
 }
 
 }  // namespace faba

@@ -366,10 +366,10 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
                                       segments.back().t1_s < input.part.from_s + 0.8 * survey.duration_s))
     estimate_background(v, survey.first, measure, segments.front().t0_s, segments.back().t1_s, tick);
   if (v.resting > 0)
-    v.notes.push_back(
-        fmt::format("{} {} of the width of a cell {} in one place: counted as cells that are not motile, "
-                    "which dirt would be as well",
-                    v.resting, v.resting == 1 ? "spot" : "spots", v.resting == 1 ? "stays" : "stay"));
+    v.notes.push_back(fmt::format(
+        "spots of the width of a cell that stay in one place: {}; they are counted as cells that are "
+        "not motile, as dirt would be",
+        v.resting));
 
   take_frames(v, boundary, measure, tick);
   return v;
