@@ -3,10 +3,11 @@
 import { RequestError } from './connection';
 import type { Say, Word } from './i18n';
 import { placeIn, textIn } from './i18n/program/catalogue';
-import { micro } from './units';
+import { micro, microInPortuguese } from './units';
 
-/** A message of the program in the language of the page. The Portuguese word "um" is not a unit. */
-export const programText = (text: string, say: Say) => textIn(say.language, text) ?? micro(text);
+/** A message of the program in the language of the page. A text of the page itself is returned as it is. */
+export const programText = (text: string, say: Say) =>
+  (say.language === 'pt' ? microInPortuguese : micro)(textIn(say.language, text) ?? text);
 
 /** With a capital letter at the start; the sign µ remains. */
 export const capitalised = (text: string) => text.replace(/^[a-zà-ÿ]/, (c) => c.toUpperCase());

@@ -39,3 +39,7 @@ export function bytesText(bytes: number): string {
  */
 export const micro = (text: string) =>
   text.replace(/(?<![\w.`-])u(?=(?:m|T|A|H|V|N|Pa|W)(?!\w))/g, 'µ').replace(/(?<=\d ?)u(?=s\b)/g, 'µ');
+
+/** The same for a text that may be Portuguese: its word "um" is a unit only after a number, before a slash, or before "por px". */
+export const microInPortuguese = (text: string) =>
+  text.replace(/(?<![\w.`-])u(?=(?:T|A|H|V|N|Pa|W)(?!\w))/g, 'µ').replace(/(?<=\d ?)u(?=[ms](?!\w))|(?<![\w.`-])u(?=m(?:\/| p[eo]r p))/g, 'µ');

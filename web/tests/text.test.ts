@@ -3,7 +3,7 @@ import { RequestError } from '../src/connection';
 import { words } from '../src/i18n';
 import { loadTexts } from '../src/i18n/program/catalogue';
 import { failureText, grouped, jobTitle, placeInFile, programText, reason, withCode } from '../src/text';
-import { micro } from '../src/units';
+import { micro, microInPortuguese } from '../src/units';
 
 const en = words('en'), pt = words('pt');
 beforeAll(() => loadTexts('pt'));
@@ -22,12 +22,25 @@ describe('units of the program', () => {
   });
 });
 
+describe('units in Portuguese texts', () => {
+  test.each([
+    ['186 um/s, 23 uT e 2 us', '186 µm/s, 23 µT e 2 µs'],
+    ['0.5 um por px ou um/px', '0.5 µm por px ou µm/px'],
+    ['escolha um valor', 'escolha um valor'],
+    ['um_per_px', 'um_per_px'],
+  ])('%s', (text, shown) => {
+    expect(microInPortuguese(text)).toBe(shown);
+  });
+});
+
 describe('fixed texts of the program', () => {
   test('are translated; others and English ones are unchanged', () => {
     expect(programText('simulating', pt)).toBe('simulando');
     expect(programText('simulating', en)).toBe('simulating');
     expect(programText('900 um is out of range', pt)).toBe('900 µm is out of range');
     expect(programText('constructor', pt)).toBe('constructor');
+    expect(programText('falta; escolha um valor', pt)).toBe('falta; escolha um valor');
+    expect(programText('nominal scale 0.5 um per px', pt)).toBe('escala nominal 0.5 µm por px');
   });
   test('the verb of a job is translated, its file is not', () => {
     expect(jobTitle('field map: simulating.toml', pt)).toBe('mapa do campo: simulating.toml');

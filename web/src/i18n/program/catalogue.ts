@@ -1,6 +1,5 @@
 // Translations of the texts of the program: fixed texts, and texts with values, which have {} in the catalogue.
 
-import { micro } from '../../units';
 import type { Language } from '..';
 
 type Texts = Record<string, string>;
@@ -84,7 +83,7 @@ function byTemplate(catalogue: Catalogue, text: string, isValue: boolean): Trans
   for (const { fixed, english, quoted, part, translation } of catalogue.templates) {
     const found = text.includes(fixed) && (isValue || !part) ? english.exec(text) : null;
     if (!found) continue;
-    const values = found.slice(1).map((v, i) => (quoted[i] ? { text: v, complete: true } : (translated(catalogue, v, true) ?? unchanged(micro(v)))));
+    const values = found.slice(1).map((v, i) => (quoted[i] ? { text: v, complete: true } : (translated(catalogue, v, true) ?? unchanged(v))));
     let next = 0;
     const filled = translation.replace(/\{(\d*)\}/g, (_, n) => values[n ? Number(n) - 1 : next++]?.text ?? '');
     const complete = values.every((v) => v.complete);
