@@ -35,7 +35,7 @@ export const studies: Record<string, string> = {
   'cannot be written': 'não pode ser gravado',
   'folder {} not found': 'a pasta {} não foi encontrada',
   'unknown kind "{}"{}': 'tipo desconhecido "{}"{}',
-  'unknown {} "{}"{}': '{} desconhecido: "{}"{}',
+  'unknown {} "{}"{}': 'tipo desconhecido de {}: "{}"{}',
   'option is missing; give the distance between neighbouring marks of the finest division, such as --tick "10 um"': 'falta a opção; informe a distância entre marcas vizinhas da divisão mais fina, como --tick "10 um"',
   '"{}" is out of range; it must be between 1 nm and 1 m, such as "10 um"': '"{}" está fora do intervalo permitido; deve estar entre 1 nm e 1 m, como "10 um"',
   'the detected marks are too few or too irregular for a calibration ({} marks, scatter {} px); check them with --overlay, or write {} anyway with --force': 'as marcas detectadas são poucas ou irregulares demais para uma calibração ({} marcas, dispersão {} px); verifique-as com --overlay, ou grave {} mesmo assim com --force',
