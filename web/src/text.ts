@@ -3,11 +3,14 @@
 import { RequestError } from './connection';
 import type { Say, Word } from './i18n';
 import { placeIn, textIn } from './i18n/program/catalogue';
-import { micro, microInPortuguese } from './units';
+import { reportIn } from './i18n/program/report_texts';
+import { micro, microAfterNumber } from './units';
 
-/** A message of the program in the language of the page. A text of the page itself is returned as it is. */
-export const programText = (text: string, say: Say) =>
-  (say.language === 'pt' ? microInPortuguese : micro)(textIn(say.language, text) ?? text);
+/** A text of the program in the language of the page. In a Portuguese text "um" is a unit only after a number. */
+export const programText = (text: string, say: Say) => withMicro(textIn(say.language, text) ?? text, say);
+/** Likewise, a text of a report. */
+export const reportText = (text: string, say: Say) => withMicro(reportIn(say.language, text) ?? text, say);
+const withMicro = (text: string, say: Say) => (say.language === 'en' ? micro(text) : microAfterNumber(text));
 
 /** With a capital letter at the start; the sign µ remains. */
 export const capitalised = (text: string) => text.replace(/^[a-zà-ÿ]/, (c) => c.toUpperCase());
@@ -43,10 +46,11 @@ export interface TextPart {
   text: string;
   code: boolean;
 }
-/** Splits a description into text and code, which is in `backticks`. */
-export function withCode(text: string): TextPart[] {
-  const parts = text.split('`');
+/** A description in the language of the page as text and code, which is in `backticks`. */
+export function withCode(text: string, say: Say): TextPart[] {
+  const translation = textIn(say.language, text), parts = (translation ?? text).split('`');
+  const shown = (part: string) => (translation === undefined ? withMicro(part, say) : part);
   // Without a closing backtick the last one is a character.
   if (parts.length % 2 === 0) parts.splice(-2, 2, parts.slice(-2).join('`'));
-  return parts.map((part, i) => ({ text: i % 2 ? part : micro(part), code: i % 2 === 1 })).filter((part) => part.text !== '');
+  return parts.map((part, i) => ({ text: i % 2 ? part : shown(part), code: i % 2 === 1 })).filter((part) => part.text !== '');
 }

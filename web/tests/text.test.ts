@@ -3,7 +3,7 @@ import { RequestError } from '../src/connection';
 import { words } from '../src/i18n';
 import { loadTexts } from '../src/i18n/program/catalogue';
 import { failureText, grouped, jobTitle, placeInFile, programText, reason, withCode } from '../src/text';
-import { micro, microInPortuguese } from '../src/units';
+import { micro } from '../src/units';
 
 const en = words('en'), pt = words('pt');
 beforeAll(() => loadTexts('pt'));
@@ -19,17 +19,6 @@ describe('units of the program', () => {
     ['must be in um', 'must be in µm'],
   ])('%s', (text, shown) => {
     expect(micro(text)).toBe(shown);
-  });
-});
-
-describe('units in Portuguese texts', () => {
-  test.each([
-    ['186 um/s, 23 uT e 2 us', '186 µm/s, 23 µT e 2 µs'],
-    ['0.5 um por px ou um/px', '0.5 µm por px ou µm/px'],
-    ['escolha um valor', 'escolha um valor'],
-    ['um_per_px', 'um_per_px'],
-  ])('%s', (text, shown) => {
-    expect(microInPortuguese(text)).toBe(shown);
   });
 });
 
@@ -83,7 +72,7 @@ describe('a description with code', () => {
     ['`a` one ` more', [code('a'), plain(' one ` more')]],
     ['', []],
   ])('%s', (text, parts) => {
-    expect(withCode(text)).toEqual(parts);
+    expect(withCode(text, en)).toEqual(parts);
   });
 });
 

@@ -288,8 +288,7 @@ std::string activity_page(const ActivityResult& r, const Provenance& provenance)
   std::string out = fmt::format("<h1>Activity</h1>\n<p class=\"lead\">{}</p>\n", escape_markup(lead(r)));
   out += quality_markup(all_warnings(r));
   for (const VideoActivity& a : r.videos)
-    for (const std::string& note : a.notes)
-      out += fmt::format("<p class=\"note\">{}: {}.</p>\n", escape_markup(title_of(a)), escape_markup(note));
+    for (const std::string& note : a.notes) out += note_markup(note, title_of(a), "note");
   int number = 0;
   for (const Figure& f : activity_figures(r))
     out += fmt::format(
