@@ -8,7 +8,29 @@ namespace {
 
 constexpr std::array<const char*, 5> kStates = {"waiting", "running", "done", "failed", "cancelled"};
 
+// The file that a word of a command line names: "runs/steer" of "./runs/steer" or "--noise=./runs/steer".
+std::string_view file_of(std::string_view word) {
+  if (word.starts_with("--")) word.remove_prefix(std::min(word.size(), word.find('=')));
+  if (word.starts_with('=')) word.remove_prefix(1);
+  if (word.starts_with("./")) word.remove_prefix(2);
+  return word;
+}
+
+std::string text_in(const Json& result, const char* key) {
+  return result.is_object() && result.contains(key) && result[key].is_string()
+             ? result[key].get<std::string>()
+             : "";
+}
+
 }  // namespace
+
+bool job_uses(const Job& j, const std::string& path) {
+  const auto names = [&](const std::string& word) {
+    const std::string_view file = file_of(word);
+    return file == path || file.starts_with(path + "/");
+  };
+  return !is_over(j) && (names(j.out.string()) || std::any_of(j.words.begin(), j.words.end(), names));
+}
 
 Json job_json(const Job& j) {
   return {{"id", j.id},
@@ -26,7 +48,8 @@ Json job_json(const Job& j) {
           {"of", j.of},
           {"seconds", j.seconds},
           {"ended", j.ended},
-          {"error", j.error}};
+          {"error", j.error},
+          {"quality", text_in(j.result, "quality")}};
 }
 
 Job::State job_state(const std::string& word) {

@@ -121,6 +121,10 @@ void check_keys(const JobKind& kind, const Json& values) {
                   fmt::format("is not a value of {}; it must be one of {}", kind.verb_text(), known));
 }
 
+// With "./" a name that starts with a dash does not become an option. Files of allowed folders have absolute
+// paths.
+std::string word_of_file(const std::string& file) { return file.starts_with('/') ? file : "./" + file; }
+
 }  // namespace
 
 std::string word_of(const JobInput& i, const Json& value) {
@@ -177,9 +181,9 @@ std::vector<std::string> job_words(const JobKind& kind, const Json& values, cons
     if (is_file(i)) {
       for (const std::string& file : files_of(i, value, workspace))
         if (i.option.empty())
-          words.push_back("./" + file);
+          words.push_back(word_of_file(file));
         else
-          options.push_back(i.option + "=./" + file);
+          options.push_back(i.option + "=" + word_of_file(file));
     } else if (i.kind == In::flag) {
       if (!value.is_boolean()) refuse(i, fmt::format("{} must be true or false", shown(value)));
       if (value.get<bool>()) options.push_back(i.option);

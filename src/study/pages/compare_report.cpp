@@ -6,6 +6,7 @@
 
 #include "core/counted.h"
 #include "core/toml.h"
+#include "study/motion/direction_text.h"
 #include "study/pages/provenance_output.h"
 #include "study/pages/quality_output.h"
 #include "study/plot/figure.h"
@@ -80,12 +81,11 @@ std::string pictures(const ComparedRun& r, const FlowFilter& filter, int& number
                                                       {&r.furthest.run, "Run"}};
   for (const auto& [flow, heading] : both)
     out += fmt::format(
-        "<figure>\n<h3>{0}</h3>\n{1}<figcaption>Figure {2}. Flow within 45° of the direction, {3:.0f}° in "
-        "the picture "
-        "frame (0 right, 90 down).</figcaption>\n"
+        "<figure>\n<h3>{0}</h3>\n{1}<figcaption>Figure {2}. Flow within 45° of the direction {3}, "
+        "counter-clockwise in the picture.</figcaption>\n"
         "</figure>\n",
         heading, inline_picture(draw_flow(filtered_flow(*flow, filter), how), heading), ++number,
-        filter.direction_deg);
+        short_direction_text(filter.direction_deg));
   const auto sums = [&](const char* heading, const char* over, const Plot& plot) {
     return figure_markup(
         {heading,

@@ -28,7 +28,7 @@ const kHtmlAttributes = words('title scope colspan rowspan alt width height role
 const kSvgAttributes = words(
   'viewBox width height x y x1 y1 x2 y2 cx cy r rx ry d points transform fill fill-opacity stroke stroke-width stroke-opacity stroke-dasharray stroke-linecap stroke-linejoin opacity paint-order text-anchor font-family font-size font-weight role aria-label data-x data-y data-lo data-hi data-at data-of data-log data-right data-equal data-kind data-layer data-legend data-axis data-ticks',
 );
-const kClasses = words('faba-plot lead details note warning cards figures frames wide video numbers facts');
+const kClasses = words('faba-plot lead details note warning quality sentence cards figures frames wide video numbers facts');
 const isClass = (name: string) => kClasses.has(name) || /^[sf]-[a-z]+$/.test(name);
 // The page has the first heading.
 const kTagInPage: Record<string, string> = { h1: 'h2', h2: 'h3', h3: 'h4' };

@@ -16,6 +16,7 @@
 #include "study/data/run_video.h"
 #include "study/experiment/experiment.h"
 #include "study/motion/activity_study.h"
+#include "study/motion/direction_text.h"
 #include "study/pages/activity_report.h"
 #include "study/pages/flow_report.h"
 
@@ -32,10 +33,10 @@ std::string with_error(double value, double se) {
   return fmt::format("{:.{}f} +- {:.{}f}", value, digits, se, digits);
 }
 
-std::string with_interval(const Measured& m, double scale) {
-  const double width = scale * width_of(m.ci90);
-  return fmt::format("{} [{}, {}]", decimals(scale * m.value, width), decimals(scale * m.ci90[0], width),
-                     decimals(scale * m.ci90[1], width));
+std::string with_interval(const Measured& m) {
+  const double width = width_of(m.ci90);
+  return fmt::format("{} [{}, {}]", decimals(m.value, width), decimals(m.ci90[0], width),
+                     decimals(m.ci90[1], width));
 }
 
 void print_response(const VideoActivity& a) {
@@ -43,7 +44,7 @@ void print_response(const VideoActivity& a) {
   const Response& r = *a.response;
   const char* unit = a.timed ? "s" : "frames";
   if (const auto onset = onset_of(a)) {
-    fmt::print("  onset {} {} (90 % interval; {})\n", with_interval({onset->t_s, onset->ci90}, 1), unit,
+    fmt::print("  onset {} {} (90 % interval; {})\n", with_interval({onset->t_s, onset->ci90}), unit,
                r.source == Response::Source::detected
                    ? "time of the field reversal unknown"
                    : fmt::format("field reversal at {:g} {}, {}", r.earliest_s, unit, reversal_source(r)));
@@ -51,20 +52,18 @@ void print_response(const VideoActivity& a) {
     fmt::print("  no response to the field reversal\n");
   }
   if (r.fraction)
-    fmt::print("  responding fraction {} (90 % interval; {})\n", with_interval(*r.fraction, 1),
+    fmt::print("  responding fraction {} (90 % interval; {})\n", with_interval(*r.fraction),
                r.fraction_method);
+  const std::optional<Measured> um = speed_um_s(a);
   if (r.speed_px_s)
-    fmt::print("  speed {} {}/s (90 % interval)\n", with_interval(*r.speed_px_s, a.um_per_px.value_or(1)),
-               a.um_per_px ? "um" : "px");
+    fmt::print("  speed {} {}/s (90 % interval)\n", with_interval(um ? *um : *r.speed_px_s),
+               um ? "um" : "px");
 }
 
 void print_video(const VideoActivity& a) {
-  fmt::print(
-      "{}\n  mean activity {:.4g} px^3 per frame pair (flow above {:.3g} px), direction {} degrees (0 right, "
-      "90 "
-      "down){}\n",
-      a.input.file.string(), a.mean_amount, a.threshold_px, rounded_degrees(a.direction_deg),
-      a.signal_to_noise ? fmt::format(", signal-to-noise ratio {:.3g}", *a.signal_to_noise) : "");
+  fmt::print("{}\n  mean activity {:.4g} px^3 per frame pair (flow above {:.3g} px), direction {}{}\n",
+             a.input.file.string(), a.mean_amount, a.threshold_px, direction_text(a.direction_deg),
+             a.signal_to_noise ? fmt::format(", signal-to-noise ratio {:.3g}", *a.signal_to_noise) : "");
   if (const auto per_cell = activity_per_cell(a)) {
     const std::string cells = *a.visible_cells < 1000 ? fmt::format("{:.3g}", *a.visible_cells)
                                                       : fmt::format("{:.0f}", *a.visible_cells);
@@ -80,8 +79,8 @@ void print_video(const VideoActivity& a) {
   else
     fmt::print("  no time of the maximum: {}\n", a.fit.reason);
   for (const MotionSegment& s : a.segments)
-    fmt::print("  {}{:7.2f} to {:7.2f}{}  direction {:3} degrees\n", a.timed ? "" : "frame ", s.t0_s, s.t1_s,
-               a.timed ? " s" : "", rounded_degrees(s.direction_deg));
+    fmt::print("  {}{:7.2f} to {:7.2f}{}  direction {}\n", a.timed ? "" : "frame ", s.t0_s, s.t1_s,
+               a.timed ? " s" : "", direction_text(s.direction_deg));
   if (a.segments.empty())
     fmt::print("  no motion segment: at no time does more than half of the motion have one direction\n");
 }

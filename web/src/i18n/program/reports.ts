@@ -5,8 +5,9 @@ import { common } from './reports/common';
 import { control } from './reports/control';
 import { identify } from './reports/identify';
 import { motion } from './reports/motion';
+import { quality } from './reports/quality';
 import { run } from './reports/run';
 import { tracks } from './reports/tracks';
 import { values } from './reports/values';
 
-export const reports: Record<string, string> = { ...values, ...aspects, ...common, ...run, ...motion, ...tracks, ...identify, ...control, ...calibration };
+export const reports: Record<string, string> = { ...values, ...aspects, ...common, ...run, ...motion, ...tracks, ...identify, ...control, ...calibration, ...quality };
