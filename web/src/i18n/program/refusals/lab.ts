@@ -10,6 +10,9 @@ export const lab: Record<string, string> = {
   // server/api
   'invalid name; it must consist of letters, digits, spaces, dots, underscores and dashes, such as 10x': 'nome inválido; deve consistir de letras, dígitos, espaços, pontos, sublinhados e hífens, como 10x',
   'is not a folder': 'não é uma pasta',
+  'the job "{}" uses this experiment; wait until it ends or cancel it': 'a tarefa "{}" usa este experimento; espere até que termine ou cancele-a',
+  'is not in the folder videos/ of the experiment and is not deleted; remove the entry only': 'não está na pasta videos/ do experimento e não é apagado; remova só a entrada',
+  'is used by the experiment {}; remove it there first, or remove the entry only': 'é usado pelo experimento {}; remova-o antes lá, ou remova só a entrada',
   '"{}" must be one of first, again, clear': '"{}" deve ser um de first, again, clear',
   'the job is in another state; reload the list of jobs': 'a tarefa está em outro estado; recarregue a lista de tarefas',
   'is not a file': 'não é um arquivo',
@@ -29,6 +32,7 @@ export const lab: Record<string, string> = {
   'is not the path of a value of an experiment': 'não é o caminho de um valor de um experimento',
   'must be a list of 1 to {} changes': 'deve ser uma lista de 1 a {} alterações',
   'experiment not found': 'experimento não encontrado',
+  'is not a video of this experiment': 'não é um vídeo deste experimento',
   'is neither in the folder in which the lab was started nor in a folder given by --allow': 'não está na pasta em que o laboratório foi iniciado nem em uma pasta informada com --allow',
   'the file needs {} MB and {} MB are kept free for results, but only {} MB are free; delete runs or imported videos, or use faba lab --allow FOLDER to read it where it is': 'o arquivo precisa de {} MB e {} MB são reservados para resultados, mas só {} MB estão livres; apague execuções ou vídeos importados, ou use faba lab --allow FOLDER para lê-lo onde está',
   'is missing; it must be the name of the file': 'falta; deve ser o nome do arquivo',
