@@ -6,13 +6,10 @@ import { placeIn, textIn } from './i18n/program/catalogue';
 import { reportIn } from './i18n/program/report_texts';
 import { micro, microAfterNumber } from './units';
 
-/**
- * A text of the program in the language of the page. A text without a translation may be Portuguese, in which "um" is a unit only
- * after a number.
- */
-export const programText = (text: string, say: Say) => textIn(say.language, text) ?? withMicro(text, say);
+/** A text of the program in the language of the page. In a Portuguese text "um" is a unit only after a number. */
+export const programText = (text: string, say: Say) => withMicro(textIn(say.language, text) ?? text, say);
 /** Likewise, a text of a report. */
-export const reportText = (text: string, say: Say) => reportIn(say.language, text) ?? withMicro(text, say);
+export const reportText = (text: string, say: Say) => withMicro(reportIn(say.language, text) ?? text, say);
 const withMicro = (text: string, say: Say) => (say.language === 'en' ? micro(text) : microAfterNumber(text));
 
 /** With a capital letter at the start; the sign µ remains. */

@@ -49,6 +49,12 @@ describe('messages as the program prints them', () => {
     ['"a" is not a number; it must be a number between 0.001 mm and 1000 mm', '"a" não é um número; deve ser um número entre 0.001 mm e 1000 mm'],
     ['nope.mp4: file not found in the folder in which the lab was started', 'nope.mp4: arquivo não encontrado na pasta em que o laboratório foi iniciado'],
     ['r3.csv: has one reading, all of the width 10 um; at least three readings of at least two widths are needed', 'r3.csv: tem uma leitura, todas da largura 10 um; são necessárias pelo menos três leituras de pelo menos duas larguras'],
+    ['unknown key; known: model, frame, swarm', 'chave desconhecida; conhecidos: model, frame, swarm'],
+    [
+      './rigs/a.toml: the coils cannot produce a zero of the field at (0, 0) mm within their current limits; choose another position with --at, or a coil system with more independent coils',
+      './rigs/a.toml: as bobinas não podem produzir um zero do campo em (0, 0) mm dentro dos seus limites de corrente; escolha outra posição com --at, ou um sistema com mais bobinas independentes',
+    ],
+    ['unknown reference "nope"; did you mean "none"?', 'tipo desconhecido de referência: "nope"; você quis dizer "none"?'],
     ['runs/a: cannot be written: No space left on device; free some space or choose another disk', 'runs/a: não pode ser gravado: não há espaço livre no disco; libere espaço ou escolha outro disco'],
     ['a.toml:3: camera.delay_frames is 9, but the run has 3 frames: the controller gets only the first picture; reduce the delay or increase the duration', 'a.toml:3: camera.delay_frames é 9, mas a execução tem 3 quadros: o controlador só recebe a primeira imagem; reduza o atraso ou aumente a duração'],
   ])('%s', (english, translation) => {

@@ -29,6 +29,7 @@ describe('fixed texts of the program', () => {
     expect(programText('900 um is out of range', pt)).toBe('900 µm is out of range');
     expect(programText('constructor', pt)).toBe('constructor');
     expect(programText('falta; escolha um valor', pt)).toBe('falta; escolha um valor');
+    expect(programText('nominal scale 0.5 um per px', pt)).toBe('escala nominal 0.5 µm por px');
   });
   test('the verb of a job is translated, its file is not', () => {
     expect(jobTitle('field map: simulating.toml', pt)).toBe('mapa do campo: simulating.toml');

@@ -1,6 +1,5 @@
 // Translations of the texts of the program: fixed texts, and texts with values, which have {} in the catalogue.
 
-import { micro } from '../../units';
 import type { Language } from '..';
 
 type Texts = Record<string, string>;
@@ -28,7 +27,8 @@ const catalogues: Record<Language, Catalogue> = { en: kEmpty, pt: kEmpty };
 const literal = (text: string) => text.replace(/[.*+?^${}()|[\]\\]/g, '\\$&');
 
 /** Pattern of a text. A value between spaces has at least one character; other values, such as advice after a text, may be empty. */
-function pattern(parts: string[]): RegExp {
+function pattern(english: string, parts: string[]): RegExp {
+  if (/^\{\} [a-z]+( [a-z]+)?$/.test(english)) return new RegExp(`^(\\S+)${literal(parts[1])}$`); // a number of things
   const value = (before: string, after: string) => (/(^|\s)$/.test(before) && /^(\s|$)/.test(after) ? '(.+?)' : '(.*?)');
   const written = parts.map((part, i) => (i ? value(parts[i - 1], part) : '') + literal(part));
   return new RegExp(`^${written.join('')}$`, 's');
@@ -50,7 +50,7 @@ export function templatesOf(texts: Texts): Template[] {
       const fixed = parts.reduce((longest, part) => (part.length > longest.length ? part : longest), '');
       const words = english.match(/\p{L}+/gu) ?? [];
       const part = words.length > 0 && words.every((word) => kJoining.has(word));
-      return { fixed, english: pattern(parts), quoted, part, translation };
+      return { fixed, english: pattern(english, parts), quoted, part, translation };
     });
 }
 
@@ -71,27 +71,27 @@ export const titleIn = (language: Language, title: string) => own(catalogues[lan
 
 interface Translated {
   text: string;
-  /** Whether all words are translated; a file name or a key is not. */
-  complete: boolean;
+  /** Number of characters without a translation, as in the name of a file. The translation with the fewest is the best. */
+  left: number;
 }
 /** Whether a text has words; a number with a unit has none. */
 const worded = (text: string) => /\p{L}{2}/u.test(text) && !/^[-+]?[\d.][\d.e+-]*( ?(\S{1,3}|\S+\/\S+))?$/i.test(text);
-const unchanged = (text: string): Translated => ({ text, complete: !worded(text) });
+const unchanged = (text: string): Translated => ({ text, left: worded(text) ? text.length : 0 });
+const leftOf = (parts: Translated[]) => parts.reduce((sum, part) => sum + part.left, 0);
+const better = (a: Translated | undefined, b: Translated | undefined) => (b && (!a || b.left < a.left) ? b : a);
 
-/** By the first template all of whose values are translated, or else by the first. */
 function byTemplate(catalogue: Catalogue, text: string, isValue: boolean): Translated | undefined {
-  let first: Translated | undefined;
+  let best: Translated | undefined;
   for (const { fixed, english, quoted, part, translation } of catalogue.templates) {
     const found = text.includes(fixed) && (isValue || !part) ? english.exec(text) : null;
     if (!found) continue;
-    const values = found.slice(1).map((v, i) => (quoted[i] ? { text: v, complete: true } : (translated(catalogue, v, true) ?? unchanged(micro(v)))));
+    const values = found.slice(1).map((v, i) => (quoted[i] ? { text: v, left: 0 } : (translated(catalogue, v, true) ?? unchanged(v))));
     let next = 0;
     const filled = translation.replace(/\{(\d*)\}/g, (_, n) => values[n ? Number(n) - 1 : next++]?.text ?? '');
-    const complete = values.every((v) => v.complete);
-    if (complete) return { text: filled, complete };
-    first ??= { text: filled, complete };
+    best = better(best, { text: filled, left: leftOf(values) });
+    if (best?.left === 0) break;
   }
-  return first;
+  return best;
 }
 
 const kComma = /(, )/;
@@ -104,7 +104,7 @@ function inParts(catalogue: Catalogue, text: string): Translated | undefined {
     if (parts.length === 1 || !parts.some(worded)) continue;
     if (separator === kComma && !parts.every((part, i) => i % 2 || part.includes(' '))) continue; // a list of keys
     const all = parts.map((part) => (worded(part) ? translated(catalogue, part, false) : unchanged(part)));
-    if (all.every((part) => part !== undefined)) return { text: all.map((part) => part.text).join(''), complete: all.every((part) => part.complete) };
+    if (all.every((part) => part !== undefined)) return { text: all.map((part) => part.text).join(''), left: leftOf(all) };
   }
   return undefined;
 }
@@ -120,7 +120,7 @@ function afterPlace(catalogue: Catalogue, text: string): Translated | undefined 
 
 function translated(catalogue: Catalogue, text: string, isValue: boolean): Translated | undefined {
   const exact = own(catalogue.texts, text);
-  if (exact !== undefined) return { text: exact, complete: true };
+  if (exact !== undefined) return { text: exact, left: 0 };
   if (!worded(text)) return undefined;
   const [, before, core, after] = /^([\s;,]*)(.*?)([\s;,]*)$/s.exec(text)!;
   if (core !== text) {
@@ -128,9 +128,7 @@ function translated(catalogue: Catalogue, text: string, isValue: boolean): Trans
     return inside && { ...inside, text: before + inside.text + after };
   }
   const matched = byTemplate(catalogue, text, isValue);
-  if (matched?.complete) return matched;
-  const found = [matched, inParts(catalogue, text), afterPlace(catalogue, text)].filter((one) => one !== undefined);
-  return found.find((one) => one.complete) ?? found[0];
+  return matched?.left === 0 ? matched : better(better(matched, inParts(catalogue, text)), afterPlace(catalogue, text));
 }
 
 /** The translation of a text by a catalogue, also of the values in it and of its parts; undefined without one. */
