@@ -12,6 +12,8 @@
 namespace faba {
 namespace {
 
+std::string span(const std::string& text) { return fmt::format("<span>{}</span>", escape_markup(text)); }
+
 // The same warning about several videos, with the evidence of each.
 struct WarningGroup {
   Warning first;

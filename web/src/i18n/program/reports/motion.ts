@@ -29,7 +29,7 @@ export const motion: Record<string, string> = {
   'Comparison with {}': 'Comparação com {}', '{} compared with the reference, {}.': '{} em comparação com a referência, {}.', 'time after the alignment (s)': 'tempo após o alinhamento (s)', 'straight line fitted to it': 'reta ajustada a ela',
   'video without motion': 'vídeo sem movimento', 'noise floor': 'nível de ruído', 'flow (px × px)': 'fluxo (px × px)', reference: 'referência', run: 'execução', Reference: 'Referência', Run: 'Execução',
   '{}: filtered flow at the largest distance, {#} s': '{}: fluxo filtrado na maior distância, {} s',
-  'Flow within 45° of the direction, {}° in the picture frame (0 right, 90 down).': 'Fluxo a menos de 45° da direção, {}° no sistema da imagem (0 à direita, 90 abaixo).',
+  'Flow within 45° of the direction {}, counter-clockwise in the picture.': 'Fluxo a menos de 45° da direção {}, no sentido anti-horário na imagem.',
   'Sums of the filtered flows of reference and run over the pixels of each {}.': 'Somas dos fluxos filtrados da referência e da execução sobre os pixels de cada {}.', 'The distance over time compares these sums.': 'A distância no tempo compara essas somas.',
   'Flow by column': 'Fluxo por coluna', 'Flow by row': 'Fluxo por linha', column: 'coluna', row: 'linha', 'column (px)': 'coluna (px)', 'row (px)': 'linha (px)', 'slope per frame': 'inclinação por quadro', score: 'escore', 'legacy mean': 'média da tese',
   'Mean, standard deviation (s.d.) and slope of the distances in Figure 1.': 'Média, desvio padrão (d.p.) e inclinação das distâncias na Figura 1.',

@@ -84,7 +84,6 @@ export const studies: Record<string, string> = {
   'Remarks': 'Observações',
   'Objective of the microscope, such as 20x': 'Objetiva do microscópio, como 20x',
   'Micrometres per pixel; without it lengths are in px': 'Micrômetros por pixel; sem este valor os comprimentos são em px',
-  'Origin of the scale: calibration, typed or metadata': 'Origem da escala: calibration, typed ou metadata',
   'Video of a dead sample, from which the noise of the flow is measured': 'Vídeo de uma amostra morta, com o qual o ruído do fluxo é medido',
   'The drops, one [[drop]] each': 'As gotas, um [[drop]] para cada uma',
   'A drop of the sample': 'Uma gota da amostra',
@@ -110,4 +109,9 @@ export const studies: Record<string, string> = {
   'slurm: further options of sbatch, such as "--mem=2G"': 'slurm: outras opções de sbatch, como "--mem=2G"',
   'Lines of shell before each worker, such as "module load gcc" (slurm, parallel)': 'Linhas de shell antes de cada trabalhador, como "module load gcc" (slurm, parallel)',
   'dask: Python interpreter that has the package distributed': 'dask: interpretador Python que tem o pacote distributed',
+  'Standard error of um_per_px, if the scale was measured': 'Erro padrão de um_per_px, se a escala foi medida',
+  'Origin of the scale: {}': 'Origem da escala: {}',
+  '[[video.segment]]: field segments, in order, for faba identify': '[[video.segment]]: segmentos de campo, em ordem, para faba identify',
+  'A time interval in which the field is constant': 'Um intervalo de tempo em que o campo é constante',
+  'Direction in which the cells swim, counter-clockwise: 0 deg is right, 90 deg is up in the picture': 'Direção em que as células nadam, no sentido anti-horário: 0 deg é à direita, 90 deg é para cima na imagem',
 };
