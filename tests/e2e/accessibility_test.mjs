@@ -11,7 +11,7 @@ const axe = readFileSync(join(root, 'web/node_modules/axe-core/axe.min.js'), 'ut
 const kSettle = 1000; // ms for a page to load its content; pages that poll are never idle
 const kPlaces = [
   'lab', 'gallery', 'experiments', 'experiments/x', 'experiments/x?measure=identify', 'runs', 'runs/seen', 'analyse', 'analyse/track', 'analyse/identify',
-  'analyse/compare-controllers', 'analyse/sweep', 'analyse/field-map', 'jobs', 'bench', 'own', 'video', 'video?file=runs%2Fseen', 'tracks',
+  'analyse/compare-controllers', 'analyse/sweep', 'analyse/field-map', 'jobs', 'bench', 'own', 'video', 'video?file=runs%2Fseen', 'video?file=runs%2Fseen&experiment=x', 'tracks',
   'tracks?file=runs%2Fseen', 'result?page=runs%2Fseen%2Freport.html',
 ];
 
