@@ -287,6 +287,8 @@ await step('activity against air exposure', async () => {
   await page.getByRole('button', { name: 'Activity against air exposure' }).click();
   await page.locator('[data-read="estimate"]').waitFor();
   await page.reload();
+  await page.getByText('The job uses the experiment ageing-drops').waitFor();
+  assert.equal(await page.locator('form').getByRole('combobox').count(), 0, 'the experiment is not asked for again');
   await page.getByRole('button', { name: 'Start' }).click();
   await page.reload();
   const result = await resultOf('activity-exposure');
@@ -303,6 +305,32 @@ await step('activity against air exposure', async () => {
   assert.deepEqual(faba('activity', 'experiments/ageing-drops').peak_line, result.peak_line);
   const { peak_line, cutoff_s, cutoff_between_s, cutoff_wrong } = faba('activity', studyOfRuns());
   assert.deepEqual([result.peak_line, result.cutoff_s, result.cutoff_between_s, result.cutoff_wrong], [peak_line, cutoff_s, cutoff_between_s, cutoff_wrong]);
+});
+
+await step('the quality is explained where it is shown, and the result and its experiment are linked', async () => {
+  const entry = page.locator('li').filter({ hasText: 'Activity against air exposure' }).first(), quality = entry.locator('summary');
+  assert.match(await quality.textContent(), /^Quality: (good|doubtful|poor)$/);
+  assert.match(await entry.textContent(), /ended \d/);
+  assert.equal(await entry.locator('details p').isVisible(), false);
+  await quality.focus();
+  await page.keyboard.press('Enter');
+  await entry.locator('details p').waitFor();
+  await entry.getByRole('link', { name: 'Open' }).click();
+  await page.locator('.report .quality').waitFor();
+  const report = await page.locator('.report').textContent();
+  assert.match(report, /drop A/);
+  assert.doesNotMatch(report, /experiment A|90 down/);
+  assert.match(report, /0° is right, 90° is up/);
+  assert.equal(await page.locator('.report .warning').filter({ hasText: /^\s*[a-z_]+: / }).count(), 0, 'warnings have titles');
+  await page.getByRole('link', { name: 'Experiment ageing-drops' }).click();
+  await page.getByRole('heading', { name: 'Videos' }).waitFor();
+});
+
+await step('a narrow window has a card for each video and no sideways scrolling', async () => {
+  await page.setViewportSize({ width: 390, height: 844 });
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
+  for (const name of ['Air exposure', 'Field reversal at', 'From', 'To', 'Field strength']) assert.ok((await field(name, 'drop-A-0.avi').boundingBox()).x < 390, name);
+  await page.setViewportSize({ width: 1280, height: 800 });
 });
 
 await shot('experiment');

@@ -32,6 +32,10 @@ export interface Job {
   of: number;
   seconds: number;
   error: string;
+  /** Time of the end, s since 1970; 0: not ended. */
+  ended?: number;
+  /** Of the measurement; empty without one. */
+  quality?: string;
 }
 export interface Trouble {
   where: string;

@@ -89,7 +89,8 @@ void add_flow_options(CLI::App* v, FlowOptions& o, const FlowChoice& defaults) {
 
 void add_response_options(CLI::App* v, ResponseOptions& o) {
   v->add_option("--direction", o.direction,
-                "Direction of the response in degrees: 0 right, 90 down; default: measured")
+                "Direction of the response in degrees, clockwise in the picture: 0 right, 90 down, 270 up; "
+                "default: measured")
       ->check(between(-360, 360));
   v->add_option("--flow-threshold", o.flow_threshold,
                 "Threshold below which flow is noise, px per pair; default: measured")

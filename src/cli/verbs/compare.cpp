@@ -10,7 +10,7 @@
 #include "cli/provenance.h"
 #include "cli/quality_text.h"
 #include "core/file.h"
-#include "study/motion/segments.h"
+#include "study/motion/direction_text.h"
 #include "study/pages/compare_report.h"
 #include "study/pages/flow_report.h"
 #include "study/quality/rounded.h"
@@ -30,8 +30,8 @@ struct CompareVerb {
 };
 
 void print_runs(const Comparison& result) {
-  fmt::print("alignment: {}; direction {} degrees (0 right, 90 down), flow threshold {:.3g} px\n",
-             result.alignment, rounded_degrees(result.filter.direction_deg), result.filter.threshold_px);
+  fmt::print("alignment: {}; direction {}, flow threshold {:.3g} px\n", result.alignment,
+             direction_text(result.filter.direction_deg), result.filter.threshold_px);
   fmt::print("{:>10} {:>10} {:>12} {:>8}  {}\n", "mean", "s.d.", "slope/frame", "score", "run");
   for (const ComparedRun& r : result.runs) {
     const auto score = score_of(result, r);

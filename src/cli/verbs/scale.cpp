@@ -56,9 +56,10 @@ void print_table(const TableScale& s) {
 
 void print_picture(const PictureScale& s) {
   fmt::print(
-      "marks        {} {}, spacing {:.4f} px (s.e. {:.4f}), angle {:.2f} degrees clockwise from x, scatter "
+      "marks        {} {}, spacing {:.4f} px (s.e. {:.4f}), angle {:.2f} degrees counter-clockwise from x, "
+      "scatter "
       "{:.2f} px\n",
-      s.marks, s.dark ? "dark" : "bright", s.pitch_px, s.pitch_se_px, s.angle_deg, s.residual_px);
+      s.marks, s.dark ? "dark" : "bright", s.pitch_px, s.pitch_se_px, -s.angle_deg, s.residual_px);
   fmt::print("mean ratio   {:.5f} um/px, s.d. {:.5f}, s.e.m. {:.5f}\n", s.ratios.mean, s.ratios.sd,
              s.ratios.sem);
   print_regression(s.um_per_px, s.ci95);

@@ -16,6 +16,12 @@ std::string_view file_of(std::string_view word) {
   return word;
 }
 
+std::string text_in(const Json& result, const char* key) {
+  return result.is_object() && result.contains(key) && result[key].is_string()
+             ? result[key].get<std::string>()
+             : "";
+}
+
 }  // namespace
 
 bool job_uses(const Job& j, const std::string& path) {
@@ -42,7 +48,8 @@ Json job_json(const Job& j) {
           {"of", j.of},
           {"seconds", j.seconds},
           {"ended", j.ended},
-          {"error", j.error}};
+          {"error", j.error},
+          {"quality", text_in(j.result, "quality")}};
 }
 
 Job::State job_state(const std::string& word) {

@@ -31,7 +31,7 @@ struct Job {
 /// Whether a job that has not ended names a file or folder of the workspace, or files below it, in its
 /// command line or as its output.
 bool job_uses(const Job& j, const std::string& path);
-/// Everything except the result, which can be large.
+/// Everything except the result, which can be large; of it the quality, empty without one.
 Json job_json(const Job& j);
 /// The state of a word of job_json(); failed for any other word.
 Job::State job_state(const std::string& word);

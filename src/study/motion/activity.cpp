@@ -11,6 +11,7 @@
 #include "study/data/run_info.h"
 #include "study/data/run_video.h"
 #include "study/motion/activity_checks.h"
+#include "study/motion/direction_text.h"
 #include "study/motion/video_response.h"
 #include "study/tracks/cell_count.h"
 
@@ -212,10 +213,10 @@ void note_response(VideoActivity& a) {
   const Response& r = *a.response;
   if (auto warning = no_response_warning(r)) a.warnings.push_back(*warning);
   if (!r.responds)
-    a.notes.push_back(fmt::format(
-        "no response: the velocity along {} degrees does not change significantly (t = {:.2g}; a sample "
-        "without a response exceeds the limit once in {:.0f} videos)",
-        rounded_degrees(r.direction_deg), r.change.t_statistic, 1 / kFalseResponse));
+    a.notes.push_back(
+        fmt::format("no response: the velocity along {} does not change significantly (t = {:.2g}; a sample "
+                    "without a response exceeds the limit once in {:.0f} videos)",
+                    direction_text(r.direction_deg), r.change.t_statistic, 1 / kFalseResponse));
   else if (r.source == Response::Source::detected)
     a.notes.emplace_back(
         "the time of the field reversal is unknown: the onset is that of the first detected motion; give "
@@ -233,11 +234,11 @@ void note_motion(VideoActivity& a) {
     a.notes.push_back(
         a.segments.empty()
             ? fmt::format("no direction was given and no directed motion was detected; the direction of the "
-                          "total flow is used: {} degrees",
-                          rounded_degrees(a.direction_deg))
+                          "total flow is used: {}",
+                          direction_text(a.direction_deg))
             : fmt::format("no direction was given; the direction of the longest detected motion is used: "
-                          "{} degrees",
-                          rounded_degrees(a.direction_deg)));
+                          "{}",
+                          direction_text(a.direction_deg)));
 }
 
 // Widens the interval of a fraction: the objects in view are a sample, with a binomial variance of at least
@@ -363,7 +364,7 @@ ActivityResult measure_activity(const ActivityJob& job) {
   const std::optional<double> threshold = common_threshold(job, thresholds);
   std::vector<VideoActivity> videos;
   for (std::size_t i = 0; i < job.videos.size(); ++i) videos.push_back(measure_video(job, i, threshold));
-  return activity_result(std::move(videos));
+  return activity_result(std::move(videos), job.group);
 }
 
 }  // namespace faba

@@ -28,6 +28,7 @@ struct ActivityInput {
 /// Input of measure_activity() (theory A16).
 struct ActivityJob {
   std::vector<ActivityInput> videos;
+  std::string group = "experiment";    ///< what ActivityInput::experiment names, for texts: or "drop"
   std::optional<double> threshold_px;  ///< smaller flows are noise, px per pair; determined when empty
   std::filesystem::path noise;         ///< a video without motion (a dead sample), for the threshold
   FlowRegistry::PartType method;
@@ -95,6 +96,7 @@ std::optional<double> activity_per_cell(const VideoActivity& video);
 /// Results of one or several videos.
 struct ActivityResult {
   std::vector<VideoActivity> videos;
+  std::string group = "experiment";                         ///< see ActivityJob
   std::optional<ExposureLine> peak_line, peak_line_pooled;  ///< time of the maximum against exposure, s
   std::optional<ExposureLine> mean_line, mean_line_pooled;  ///< mean activity against exposure
   std::optional<ExposureLine> per_cell_line, per_cell_line_pooled;  ///< mean activity per visible cell
@@ -119,7 +121,7 @@ double threshold_of(const ActivityJob& job, const ActivityInput& video);
 std::optional<double> common_threshold(const ActivityJob& job, const std::vector<double>& thresholds);
 /// Measures one video with the common threshold.
 VideoActivity measure_video(const ActivityJob& job, std::size_t index, std::optional<double> threshold_px);
-/// Fits the exposure lines.
-ActivityResult activity_result(std::vector<VideoActivity> videos);
+/// Fits the exposure lines. `group`: see ActivityJob.
+ActivityResult activity_result(std::vector<VideoActivity> videos, std::string group = "experiment");
 
 }  // namespace faba

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "study/motion/direction_text.h"
 #include "study/motion/segments.h"
 
 namespace faba {
@@ -42,14 +43,14 @@ std::optional<Warning> no_response_warning(const Response& r) {
   constexpr double kMany = 0.5;  // fraction of the cells, assumed
   if (r.responds) return std::nullopt;
   if (r.other_direction_deg)
-    return Warning{
-        "direction",
-        "no response in the given direction, but the velocity of the cells changes in another one",
-        fmt::format("the change has the direction of {} degrees, {} degrees were given",
-                    rounded_degrees(*r.other_direction_deg), rounded_degrees(r.direction_deg)),
-        "check --direction (0 right, 90 down in the picture); cells of one polarity swim along the "
-        "field, of the other against it",
-        Quality::poor};
+    return Warning{"direction",
+                   "no response in the given direction, but the velocity of the cells changes in another one",
+                   fmt::format("the change has the direction {}; the given direction is {}",
+                               direction_text(*r.other_direction_deg), direction_text(r.direction_deg)),
+                   "check the direction; --direction and study files count clockwise: 90 is down; cells of "
+                   "one polarity swim along the "
+                   "field, of the other against it",
+                   Quality::poor};
   if (r.fraction && r.fraction->ci90[1] > kMany)
     return Warning{"timing",
                    "no response at the given time, but many cells move along the direction: they may have "

@@ -72,9 +72,10 @@ std::optional<Measured> speed_um_s(const VideoActivity& a) {
 
 bool has_peak(const VideoActivity& a) { return a.fit.good && a.fit.amplitude > a.fit.offset; }
 
-ActivityResult activity_result(std::vector<VideoActivity> videos) {
+ActivityResult activity_result(std::vector<VideoActivity> videos, std::string group) {
   ActivityResult r;
   r.videos = std::move(videos);
+  r.group = std::move(group);
   fit_exposure_lines(r);
   return r;
 }

@@ -89,6 +89,7 @@ std::filesystem::path existing_file(const Node& n, const std::string& key, const
 void take_experiment(const Document& d, ActivityJob& job) {
   const Node root(d);
   const Experiment e = read_experiment(d);
+  job.group = "drop";
   if (e.videos.empty()) root.fail("[[video]] is missing; give one for each video");
   if (!e.noise.empty()) job.noise = existing_file(root, "noise", e.noise);
   for (std::size_t i = 0; i < e.videos.size(); ++i) {

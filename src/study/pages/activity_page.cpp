@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "core/counted.h"
+#include "study/motion/direction_text.h"
 #include "study/motion/flow_histograms.h"
 #include "study/pages/activity_report.h"
 #include "study/pages/provenance_output.h"
@@ -26,12 +27,6 @@ std::string title_of(const VideoActivity& a) {
   return text;
 }
 
-std::string compass(double deg) {
-  static const char* const kNames[] = {"right", "down and right", "down", "down and left",
-                                       "left",  "up and left",    "up",   "up and right"};
-  return kNames[int(std::lround(deg / 45)) % 8];
-}
-
 // Unit of the times in a table: a video without a frame rate has frame numbers.
 const char* time_unit(const ActivityResult& r) {
   const bool timed =
@@ -50,6 +45,24 @@ std::string onset_caption(const VideoActivity& a) {
                            ? "the time of the field reversal is unknown"
                            : fmt::format("field reversal at {:.3f} s", a.response->earliest_s));
   return "No response to the field reversal.";
+}
+
+// "0.118 px per pair", with the speed if the scale is known.
+std::string threshold_text(const VideoActivity& a) {
+  const std::string px = three_digits(a.threshold_px) + " px per pair";
+  if (!a.um_per_px || !a.timed || a.frame_s <= 0) return px;
+  return fmt::format("{} ({} µm/s)", px, three_digits(a.threshold_px * *a.um_per_px / a.frame_s));
+}
+
+// The activity of a unit of the tables; empty without a scale, or if the videos differ.
+std::string unit_note(const ActivityResult& r) {
+  const VideoActivity& first = r.videos.front();
+  const bool same = std::all_of(r.videos.begin(), r.videos.end(), [&](const VideoActivity& a) {
+    return a.timed && a.um_per_px == first.um_per_px && a.frame_s == first.frame_s;
+  });
+  if (!same || !first.um_per_px || first.frame_s <= 0) return "";
+  return fmt::format("<p class=\"note\">1 px × px² per pair is {} µm/s × µm².</p>\n",
+                     three_digits(std::pow(*first.um_per_px, 3) / first.frame_s));
 }
 
 Figure signature_figure(const VideoActivity& a) {
@@ -88,8 +101,8 @@ Figure signature_figure(const VideoActivity& a) {
   }
   if (a.maximum_s) p.add(Rule{.at = *a.maximum_s, .label = "(2)"});
   if (a.departure_s) p.add(Rule{.at = *a.departure_s, .label = "(3)"});
-  f.caption = fmt::format("Flow above {} px per pair; direction {:.0f}° ({}). ", three_digits(a.threshold_px),
-                          a.direction_deg, compass(a.direction_deg));
+  f.caption =
+      fmt::format("Flow above {}; direction {}. ", threshold_text(a), short_direction_text(a.direction_deg));
   if (!a.segments.empty()) f.caption += "Grey: motion in one direction. ";
   f.caption += onset_caption(a);
   f.caption += a.fit.good
@@ -140,7 +153,7 @@ Figure line_figure(const ActivityResult& r, const AgainstExposure& what) {
   }
   for (const std::string& name : experiments) {
     Scatter dots;
-    dots.label = name.empty() ? "" : "experiment " + name;
+    dots.label = name.empty() ? "" : fmt::format("{} {}", r.group, name);
     for (const VideoActivity& a : r.videos) {
       if (!a.input.exposure_s || a.input.experiment != name) continue;
       if (const auto value = what.value(a)) {
@@ -151,15 +164,17 @@ Figure line_figure(const ActivityResult& r, const AgainstExposure& what) {
     p.add(std::move(dots));
   }
   if (r.cutoff) p.add(Rule{.at = r.cutoff->cutoff_s, .label = "cut-off"});
-  p.add(Line{.x = {0, longest},
-             .y = {line->intercept, line->intercept + line->slope * longest},
-             .label = line->experiments > 1 ? "line fit, one offset per experiment" : "line fit",
-             .ink = Ink::text});
-  f.caption = fmt::format(
-      "Slope {} (95 % interval {} to {}); intercept {} ({} to {}); {} in {}.", three_digits(line->slope),
-      three_digits(line->slope_ci95[0]), three_digits(line->slope_ci95[1]), three_digits(line->intercept),
-      three_digits(line->intercept_ci95[0]), three_digits(line->intercept_ci95[1]),
-      counted(std::uint64_t(line->values), "video"), counted(std::uint64_t(line->experiments), "experiment"));
+  p.add(
+      Line{.x = {0, longest},
+           .y = {line->intercept, line->intercept + line->slope * longest},
+           .label = line->experiments > 1 ? fmt::format("line fit, one offset per {}", r.group) : "line fit",
+           .ink = Ink::text});
+  f.caption = fmt::format("Slope {} (95 % interval {} to {}); intercept {} ({} to {}); {} in {}.",
+                          three_digits(line->slope), three_digits(line->slope_ci95[0]),
+                          three_digits(line->slope_ci95[1]), three_digits(line->intercept),
+                          three_digits(line->intercept_ci95[0]), three_digits(line->intercept_ci95[1]),
+                          counted(std::uint64_t(line->values), "video"),
+                          counted(std::uint64_t(line->experiments), r.group.c_str()));
   return f;
 }
 
@@ -203,7 +218,7 @@ std::string segments_table(const ActivityResult& r) {
   for (const VideoActivity& a : r.videos)
     for (const MotionSegment& s : a.segments)
       out += text_row({title_of(a), fmt::format("{:.2f}", s.t0_s), fmt::format("{:.2f}", s.t1_s),
-                       fmt::format("{}° ({})", rounded_degrees(s.direction_deg), compass(s.direction_deg))},
+                       short_direction_text(s.direction_deg)},
                       "td");
   return out + "</tbody></table>\n";
 }
@@ -211,7 +226,7 @@ std::string segments_table(const ActivityResult& r) {
 std::string table(const ActivityResult& r) {
   std::string out = "<h2>Results</h2>\n<div class=\"wide\"><table class=\"numbers\">\n<thead>";
   const std::string unit = time_unit(r);
-  out += text_row({"video", "direction", "threshold (px)", "mean activity", "per visible cell",
+  out += text_row({"video", "direction", "threshold", "mean activity (px × px² per pair)", "per visible cell",
                    "signal-to-noise ratio", "onset (" + unit + ")", "responding fraction", "speed",
                    "maximum (" + unit + ")", "width (" + unit + ")"},
                   "th") +
@@ -221,18 +236,19 @@ std::string table(const ActivityResult& r) {
   };
   for (const VideoActivity& a : r.videos)
     out += text_row(
-        {title_of(a), fmt::format("{}°", rounded_degrees(a.direction_deg)), three_digits(a.threshold_px),
-         three_digits(a.mean_amount), activity_per_cell(a) ? three_digits(*activity_per_cell(a)) : "–",
+        {title_of(a), short_direction_text(a.direction_deg), threshold_text(a), three_digits(a.mean_amount),
+         activity_per_cell(a) ? three_digits(*activity_per_cell(a)) : "–",
          a.signal_to_noise ? three_digits(*a.signal_to_noise) : "–", onset_text(a), fraction_text(a),
          speed_text(a), with_error(if_good(a, a.fit.peak_s), a.fit.se_peak_s),
          with_error(if_good(a, a.fit.sigma_s), a.fit.se_sigma_s)},
         "td");
   out += "</tbody></table></div>\n";
   out +=
-      "<p class=\"note\">Directions are in degrees in the picture frame: 0 right, 90 down. Values after ± "
-      "are "
-      "standard errors. A dash: not defined, for example onset, maximum and width without a valid Gaussian "
-      "fit.</p>\n";
+      "<p class=\"note\">Directions in the picture count counter-clockwise: 0° is right, 90° is up. Values "
+      "after ± are standard errors. A dash: not defined, for example onset, maximum and width without a "
+      "valid Gaussian "
+      "fit.</p>\n" +
+      unit_note(r);
   const bool none = std::all_of(r.videos.begin(), r.videos.end(),
                                 [](const VideoActivity& a) { return a.segments.empty(); });
   return none ? out : out + segments_table(r);
@@ -287,9 +303,12 @@ std::vector<Figure> activity_figures(const ActivityResult& r) {
 std::string activity_page(const ActivityResult& r, const Provenance& provenance) {
   std::string out = fmt::format("<h1>Activity</h1>\n<p class=\"lead\">{}</p>\n", escape_markup(lead(r)));
   out += quality_markup(all_warnings(r));
+  std::string notes;
   for (const VideoActivity& a : r.videos)
-    for (const std::string& note : a.notes)
-      out += fmt::format("<p class=\"note\">{}: {}.</p>\n", escape_markup(title_of(a)), escape_markup(note));
+    for (const std::string& note : a.notes) notes += note_markup(note, title_of(a), "note");
+  if (r.videos.size() > 1 && !notes.empty())
+    notes = "<details>\n<summary>Notes</summary>\n" + notes + "</details>\n";
+  out += notes;
   int number = 0;
   for (const Figure& f : activity_figures(r))
     out += fmt::format(
@@ -309,8 +328,7 @@ void write_activity_picture(const std::filesystem::path& file, const VideoActivi
   how.words = a.timed ? fmt::format("flow at {:.2f} s", a.busiest.t1_s)
                       : fmt::format("flow at frame {:.0f}", a.busiest.t1_s);
   const RgbImage all = draw_flow(a.busiest.flow, how);
-  how.words =
-      fmt::format("above {:.3g} px, direction {} degrees", a.threshold_px, rounded_degrees(direction));
+  how.words = fmt::format("above {:.3g} px, direction {}", a.threshold_px, direction_text(direction));
   const RgbImage filtered = draw_flow(kept, how);
   RgbImage out(2 * all.width + 8, all.height, Rgb{255, 255, 255});
   for (int y = 0; y < all.height; ++y)

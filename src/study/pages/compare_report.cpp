@@ -6,6 +6,7 @@
 
 #include "core/counted.h"
 #include "core/toml.h"
+#include "study/motion/direction_text.h"
 #include "study/pages/provenance_output.h"
 #include "study/pages/quality_output.h"
 #include "study/plot/figure.h"
@@ -80,12 +81,11 @@ std::string pictures(const ComparedRun& r, const FlowFilter& filter, int& number
                                                       {&r.furthest.run, "Run"}};
   for (const auto& [flow, heading] : both)
     out += fmt::format(
-        "<figure>\n<h3>{0}</h3>\n{1}<figcaption>Figure {2}. Flow within 45° of the direction, {3:.0f}° in "
-        "the picture "
-        "frame (0 right, 90 down).</figcaption>\n"
+        "<figure>\n<h3>{0}</h3>\n{1}<figcaption>Figure {2}. Flow within 45° of the direction {3}, "
+        "counter-clockwise in the picture.</figcaption>\n"
         "</figure>\n",
         heading, inline_picture(draw_flow(filtered_flow(*flow, filter), how), heading), ++number,
-        filter.direction_deg);
+        short_direction_text(filter.direction_deg));
   const auto sums = [&](const char* heading, const char* over, const Plot& plot) {
     return figure_markup(
         {heading,
@@ -176,12 +176,9 @@ std::string compare_page(const Comparison& c, const CompareJob& job, const Prove
       c.runs.size() == 1 ? escape_markup(name_of(c.runs.front().file)) : counted(c.runs.size(), "video"),
       escape_markup(c.alignment));
   out += quality_markup(all_warnings(c));
-  for (const std::string& note : c.notes)
-    out += fmt::format("<p class=\"note\">{}.</p>\n", escape_markup(note));
+  for (const std::string& note : c.notes) out += note_markup(note, "", "note");
   for (const ComparedRun& r : c.runs)
-    for (const std::string& note : r.notes)
-      out +=
-          fmt::format("<p class=\"note\">{}: {}.</p>\n", escape_markup(name_of(r.file)), escape_markup(note));
+    for (const std::string& note : r.notes) out += note_markup(note, name_of(r.file), "note");
   out += fmt::format(
       "<figure class=\"wide\">\n<h3>Distance between the flows over time</h3>\n{}<figcaption>Figure 1. "
       "Quadratic-Chi "

@@ -26,7 +26,14 @@ p{margin:.5rem 0}
 text-wrap:balance}
 .details{font-size:1.08rem;max-width:54rem}
 .note{color:var(--muted);font-size:.9rem;max-width:46rem}
+.quality{margin:1rem 0 0}
+.quality+.note{margin-top:0}
 .warning{border-left:4px solid #e69f00;background:var(--soft);padding:.5rem .9rem;margin:1rem 0}
+.warning p{margin:0}
+.warning dl{display:grid;grid-template-columns:max-content 1fr;gap:.1rem .9rem;margin:.3rem 0 0}
+.warning dt{color:var(--muted)}
+.warning dd{margin:0;grid-column:2}
+.sentence::first-letter{text-transform:uppercase}
 .cards{display:grid;grid-template-columns:repeat(auto-fit,minmax(10.5rem,1fr));gap:.8rem;margin:1.6rem 0 0;
 padding:0}
 .cards div{border:1px solid var(--line);border-radius:.4rem;padding:.6rem .9rem .7rem}

@@ -9,6 +9,8 @@ namespace faba {
 /// be wrong.
 enum class Quality { good, doubtful, poor };
 const char* word_of(Quality quality);
+/// The meaning of the word, one sentence without a period.
+const char* meaning_of(Quality quality);
 
 /// A violated assumption of a measurement. The texts are parts of the sentence "aspect: what (evidence);
 /// advice".
@@ -20,6 +22,8 @@ struct Warning {
   Quality quality = Quality::doubtful;  ///< of the answer because of it
 };
 
+/// Title of an aspect for people: "Frame rate" of "frame_rate".
+std::string title_of_aspect(const std::string& aspect);
 /// The lowest quality of all warnings; good without warnings.
 Quality quality_of(const std::vector<Warning>& warnings);
 /// "texture: the picture is full of detections (1200 per frame); give --size".

@@ -32,6 +32,12 @@ TEST_CASE("the time of a job is estimated from the initial values until one is c
   CHECK(next.seconds == doctest::Approx(k.fixed_s + 200));
 }
 
+TEST_CASE("a job that was faster than the constant part still gives a rate") {
+  const JobKind& k = job_kind("identify");
+  const std::vector<Job> jobs = {done("identify", 100, k.fixed_s / 2)};
+  CHECK(estimate_job(k, 10000, jobs).seconds == doctest::Approx(k.fixed_s + 100 * 0.2 * k.fixed_s / 2));
+}
+
 TEST_CASE("one job that took much longer does not change the estimate") {
   const JobKind& k = job_kind("drop");
   CHECK(estimate_job(k, 0, {done("drop", 0, 2), done("drop", 0, 100), done("drop", 0, 3)}).seconds == 3);

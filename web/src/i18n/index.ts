@@ -10,6 +10,7 @@ import * as gallery from './gallery';
 import * as jobs from './jobs';
 import * as lab from './lab';
 import * as own from './own';
+import * as quality from './quality';
 import * as result from './result';
 import * as runs from './runs';
 import * as tracks from './tracks';
@@ -26,6 +27,7 @@ const en = {
   ...jobs.en,
   ...lab.en,
   ...own.en,
+  ...quality.en,
   ...result.en,
   ...runs.en,
   ...tracks.en,
@@ -42,6 +44,7 @@ const pt = {
   ...jobs.pt,
   ...lab.pt,
   ...own.pt,
+  ...quality.pt,
   ...result.pt,
   ...runs.pt,
   ...tracks.pt,

@@ -30,6 +30,15 @@ export function filesOf(words: string[]): string[] {
   return words.slice(1, end < 0 ? undefined : end).map((w) => w.replace(/^\.\//, ''));
 }
 
+/** The name of the experiment that a result belongs to, or whose videos it uses; undefined without one. */
+export function experimentOf(page: string, words: string[] = []): string | undefined {
+  for (const path of [page, ...words.map((w) => w.replace(/^\.\//, ''))]) {
+    const found = /^experiments\/([^/]+)/.exec(path);
+    if (found) return found[1];
+  }
+  return undefined;
+}
+
 /** "runs/study" of "runs/study/report.html". */
 export const folderOf = (page: string) => page.slice(0, Math.max(0, page.lastIndexOf('/')));
 export const nameOf = (file: string) => file.slice(file.lastIndexOf('/') + 1);

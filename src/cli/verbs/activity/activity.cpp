@@ -16,6 +16,7 @@
 #include "study/data/run_video.h"
 #include "study/experiment/experiment.h"
 #include "study/motion/activity_study.h"
+#include "study/motion/direction_text.h"
 #include "study/pages/activity_report.h"
 #include "study/pages/flow_report.h"
 
@@ -60,12 +61,9 @@ void print_response(const VideoActivity& a) {
 }
 
 void print_video(const VideoActivity& a) {
-  fmt::print(
-      "{}\n  mean activity {:.4g} px^3 per frame pair (flow above {:.3g} px), direction {} degrees (0 right, "
-      "90 "
-      "down){}\n",
-      a.input.file.string(), a.mean_amount, a.threshold_px, rounded_degrees(a.direction_deg),
-      a.signal_to_noise ? fmt::format(", signal-to-noise ratio {:.3g}", *a.signal_to_noise) : "");
+  fmt::print("{}\n  mean activity {:.4g} px^3 per frame pair (flow above {:.3g} px), direction {}{}\n",
+             a.input.file.string(), a.mean_amount, a.threshold_px, direction_text(a.direction_deg),
+             a.signal_to_noise ? fmt::format(", signal-to-noise ratio {:.3g}", *a.signal_to_noise) : "");
   if (const auto per_cell = activity_per_cell(a)) {
     const std::string cells = *a.visible_cells < 1000 ? fmt::format("{:.3g}", *a.visible_cells)
                                                       : fmt::format("{:.0f}", *a.visible_cells);
@@ -81,8 +79,8 @@ void print_video(const VideoActivity& a) {
   else
     fmt::print("  no time of the maximum: {}\n", a.fit.reason);
   for (const MotionSegment& s : a.segments)
-    fmt::print("  {}{:7.2f} to {:7.2f}{}  direction {:3} degrees\n", a.timed ? "" : "frame ", s.t0_s, s.t1_s,
-               a.timed ? " s" : "", rounded_degrees(s.direction_deg));
+    fmt::print("  {}{:7.2f} to {:7.2f}{}  direction {}\n", a.timed ? "" : "frame ", s.t0_s, s.t1_s,
+               a.timed ? " s" : "", direction_text(s.direction_deg));
   if (a.segments.empty())
     fmt::print("  no motion segment: at no time does more than half of the motion have one direction\n");
 }

@@ -62,7 +62,7 @@ class ActivityStudyJob final : public StudyJob {
     std::vector<VideoActivity> videos;
     for (std::size_t i = 0; i < job_.videos.size(); ++i)
       videos.push_back(measured(options.measured, i, threshold));
-    result_ = activity_result(std::move(videos));
+    result_ = activity_result(std::move(videos), job_.group);
     write_file(dir.path() / "activity.csv", activity_csv(*result_));
     write_file(dir.path() / "activity.html", activity_page(*result_, provenance_));
     finish(dir, report(), activity_json(*result_), provenance_, options.threads);

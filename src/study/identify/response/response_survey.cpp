@@ -14,6 +14,7 @@
 #include "study/data/run_video.h"
 #include "study/identify/found_segments.h"
 #include "study/identify/matched_look.h"
+#include "study/motion/direction_text.h"
 #include "study/stats/statistics.h"
 #include "study/tracks/track_survey.h"
 #include "vision/cells/resting_cells.h"
@@ -355,8 +356,8 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
   if (v.segments_detected) {
     std::string all;
     for (const FieldSegment& d : segments)
-      all += fmt::format("{}{:.2f} to {:.2f} s at {:.0f} deg", all.empty() ? "" : ", ", d.t0_s, d.t1_s,
-                         d.direction_deg);
+      all += fmt::format("{}{:.2f} to {:.2f} s at {}", all.empty() ? "" : ", ", d.t0_s, d.t1_s,
+                         direction_text(d.direction_deg));
     v.notes.push_back("field segments were detected in the video; all results depend on them: " + all);
   }
   v.episodes = episodes_of(v, boundary, segments);

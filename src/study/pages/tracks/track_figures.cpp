@@ -103,15 +103,15 @@ Figure msd_figure(const TrackSummary& s, const Unit& unit) {
 Figure heading_figure(const TrackSummary& s) {
   Figure f{
       "Direction over time",
-      "Dots: direction of the mean velocity in the picture (clockwise: 0 right, 90 degrees down), at times "
-      "with "
+      "Dots: direction of the mean velocity in the picture (counter-clockwise: 0 right, 90 degrees up), at "
+      "times with "
       "significant common motion (left axis). Line: order parameter, the length of the mean displacement "
       "over the mean length of the displacements (right axis): 0 for random directions, 1 for one direction.",
       {}};
   f.plot.description = "Mean heading over time";
   f.plot.inlined = true;
   f.plot.x.label = "time (s)";
-  f.plot.y.label = "heading (degrees, clockwise)";
+  f.plot.y.label = "heading (degrees, counter-clockwise)";
   f.plot.y.ticks = Ticks::degrees;
   f.plot.y.lo = -180;
   f.plot.y.hi = 180;
@@ -127,7 +127,7 @@ Figure heading_figure(const TrackSummary& s) {
     // n random directions have an order parameter of about 1 / sqrt(n).
     if (!(s.order_in_time[i] > std::max(0.2, 2.5 / std::sqrt(s.count_in_time[i])))) continue;
     heading.x.push_back(s.time_s[i]);
-    heading.y.push_back(std::atan2(s.velocity_y_px_s[i], s.velocity_x_px_s[i]) * 180 / std::numbers::pi);
+    heading.y.push_back(std::atan2(-s.velocity_y_px_s[i], s.velocity_x_px_s[i]) * 180 / std::numbers::pi);
   }
   f.plot.add(order).add(heading);
   return f;

@@ -1,6 +1,7 @@
 // Experiments as the program sends them, and changes to them.
 
 import { amount, degrees } from '../../form/schema';
+import { experimentOf } from '../../results/result';
 import { normalised } from '../../video/angles';
 
 /** An entry of the list. */
@@ -147,6 +148,14 @@ export function nextDropName(drops: Drop[]): string {
   while (used.has(String(n))) ++n;
   return String(n);
 }
+
+/** The jobs whose results are in the folder of an experiment, or that use its files. */
+export const resultsOf = <J extends { out: string; words: string[] }>(jobs: J[], name: string): J[] => jobs.filter((j) => experimentOf(j.out, j.words) === name);
+
+const kOfField = ['reversal', 'from', 'to', 'field_direction', 'field_strength'] as const;
+/** Changes that give the other videos the part and the field of one. */
+export const copiedField = (of: Video, videos: Video[]): Change[] =>
+  videos.filter((v) => v.file !== of.file).flatMap((v) => kOfField.filter((key) => v[key] !== of[key]).map((key) => ({ path: ['video', v.file, key], to: of[key] })));
 
 /** Whether exposure times can be proposed for the videos of a drop: that of one video is known. */
 export const mayPropose = (videos: Video[]) => videos.some((v) => seconds(v.exposure) !== undefined);

@@ -1,6 +1,7 @@
 // Data of the tracks page: settings, features, cuts, edits and points of tracks.
 
 import { get, post } from '../../connection';
+import type { Warning } from '../../quality/quality';
 
 /** Options of `faba track` that the user overrides; a missing one is automatic. Keys are those of the request. */
 export interface Settings {
@@ -31,12 +32,6 @@ export function valuesOf(s: Settings): Record<string, string> {
 }
 
 export type Spot = [x: number, y: number, size: number, snr: number];
-export interface Warning {
-  aspect: string;
-  what: string;
-  evidence: string;
-  advice: string;
-}
 export interface VideoFacts {
   width: number;
   height: number;
