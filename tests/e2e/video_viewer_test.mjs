@@ -153,8 +153,11 @@ await step('the flow to the next frame is computed and drawn', async () => {
 });
 
 await step('segments are drawn on the time axis, and get their direction on the picture', async () => {
-  const box = await page.locator('.axis svg').boundingBox(), at = (t) => [box.x + (t / 3) * box.width, box.y + 56];
-  await drag(at(0.2), at(0.8));
+  const at = async (t) => {
+    const box = await page.locator('.axis svg').boundingBox(); // the page scrolls to the tools
+    return [box.x + (t / 3) * box.width, box.y + 56];
+  };
+  await drag(await at(0.2), await at(0.8));
   await until(async () => (await marks())?.segments.length === 1, 'a segment');
   let [s] = (await marks()).segments;
   assert.ok(Math.abs(s.from_s - 0.2) < 0.05 && Math.abs(s.to_s - 0.8) < 0.05, JSON.stringify(s));
@@ -164,7 +167,7 @@ await step('segments are drawn on the time axis, and get their direction on the 
   await until(async () => (await marks()).segments[0].direction_deg === 90, 'up is 90 degrees');
   await drag(await place(300, 300), await place(200, 300));
   await until(async () => (await marks()).segments[0].direction_deg === 180, 'left is 180 degrees');
-  await drag(at(0.8), at(0.6)); // its end
+  await drag(await at(0.8), await at(0.6)); // its end
   [s] = (await marks()).segments;
   assert.ok(Math.abs(s.to_s - 0.6) < 0.05, JSON.stringify(s));
   await shot('video-segments');

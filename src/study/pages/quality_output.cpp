@@ -33,6 +33,8 @@ std::vector<WarningGroup> grouped(const std::vector<Warning>& warnings) {
 }
 
 // Each text is an element of its own, so that a page can translate it.
+std::string span(const std::string& text) { return "<span>" + escape_markup(text) + "</span>"; }
+
 std::string warning_markup(const WarningGroup& group) {
   const Warning& w = group.first;
   std::string out = fmt::format("<div class=\"warning\">\n<p><b>{}</b></p>\n<p class=\"sentence\">{}</p>\n",
