@@ -12,8 +12,6 @@
 namespace faba {
 namespace {
 
-std::string span(const std::string& text) { return fmt::format("<span>{}</span>", escape_markup(text)); }
-
 // The same warning about several videos, with the evidence of each.
 struct WarningGroup {
   Warning first;
@@ -80,8 +78,8 @@ std::string quality_markup(const std::vector<Warning>& warnings) {
 }
 
 std::string note_markup(const std::string& note, const std::string& file, const char* style) {
-  const std::string where = file.empty() ? "" : fmt::format("<span>{}</span>: ", escape_markup(file));
-  return fmt::format("<p class=\"{}\">{}<span>{}</span>.</p>\n", style, where, escape_markup(note));
+  const std::string where = file.empty() ? "" : span(file) + ": ";
+  return fmt::format("<p class=\"{}\">{}{}.</p>\n", style, where, span(note));
 }
 
 }  // namespace faba

@@ -3,7 +3,6 @@
 
 import { bench } from './bench';
 import { coils } from './coils';
-import { experiments } from './experiments';
 import { files } from './files';
 import { lab } from './lab';
 import { measurements } from './measurements';
@@ -12,4 +11,4 @@ import { studies } from './studies';
 import { system } from './system';
 import { tracks } from './tracks';
 
-export const refusals: Record<string, string> = { ...system, ...bench, ...coils, ...experiments, ...files, ...lab, ...measurements, ...scenario, ...studies, ...tracks };
+export const refusals: Record<string, string> = { ...system, ...bench, ...coils, ...files, ...lab, ...measurements, ...scenario, ...studies, ...tracks };
