@@ -13,6 +13,7 @@
 #include "server/access.h"
 #include "server/api/api.h"
 #include "server/experiments/experiment_store.h"
+#include "server/jobs/job_words.h"
 #include "server/live_lab.h"
 #include "server/page_message.h"
 #include "server/web_server.h"
@@ -26,7 +27,7 @@ namespace fs = std::filesystem;
 class PrivateFolder {
  public:
   PrivateFolder() {
-    std::string name = (fs::temp_directory_path() / "faba-lab-XXXXXX").string();
+    std::string name = (fs::canonical(fs::temp_directory_path()) / "faba-lab-XXXXXX").string();
     if (!::mkdtemp(name.data())) throw Error(Errc::internal, name, "cannot create this folder");
     path_ = name;
   }
@@ -223,10 +224,13 @@ void serve_lab(const LabOptions& o) {
   LiveLab live(threads);
   Pages* pages = nullptr;
   std::mutex wiring;  // jobs may change before `pages` exists
-  JobList jobs(o.program, workspace.root(), [&] {
-    const std::lock_guard lock(wiring);
-    if (pages) pages->jobs_changed();
-  });
+  JobList jobs(
+      o.program, workspace.root(),
+      [&] {
+        const std::lock_guard lock(wiring);
+        if (pages) pages->jobs_changed();
+      },
+      [&](const Job& job) { check_job(job, workspace); });
   Pages watchers(live, jobs, workspace);
   {
     const std::lock_guard lock(wiring);

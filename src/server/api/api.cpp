@@ -64,7 +64,7 @@ WebResponse Api::page_file(const std::string& name) const {
   if (!pages_.empty()) {
     const fs::path file = pages_ / fs::path(name).filename();
     if (!fs::is_regular_file(file)) throw Error(Errc::input, name, "not found");
-    return file_answer(file);
+    return file_answer(fs::canonical(file));
   }
   const auto content = embedded_page(name);
   if (!content) throw Error(Errc::input, name, "not found");

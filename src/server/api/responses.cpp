@@ -15,7 +15,10 @@ WebResponse file_answer(const std::filesystem::path& file) {
 
 WebResponse output_answer(const std::filesystem::path& file) {
   WebResponse answer = file_answer(file);
-  answer.report = file.extension() == ".html";
+  answer.report = true;
+  // The page runs scripts of this server; those of the user's files are not among them.
+  const std::string extension = file.extension().string();
+  if (extension == ".js" || extension == ".css") answer.type = "text/plain; charset=utf-8";
   return answer;
 }
 

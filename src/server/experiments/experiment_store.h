@@ -28,15 +28,19 @@ class ExperimentStore {
   /// Applies the `changes` of a request. The answer of read(), or {"conflicts": [{"path", "now"}]} with it if
   /// a change was refused. Throws Error(usage) if the changed experiment would be invalid.
   Json change(const std::string& name, const Json& asked);
-  /// Adds a video. `file`: relative to the folder of the experiment, or absolute; `drop`: its drop, ignored if
-  /// the experiment has no such drop.
+  /// Adds a video. `file`: relative to the folder of the experiment, or absolute; `drop`: its drop, ignored
+  /// if the experiment has no such drop.
   void add_video(const std::string& name, const std::string& file, const std::string& drop);
 
   /// Its folder. Throws Error(input) if there is no such experiment.
   std::filesystem::path folder(const std::string& name) const;
+  /// The folder of its imported videos, created if it is missing. Throws Error(usage) if a link leads out of
+  /// the workspace.
+  std::filesystem::path video_folder(const std::string& name) const;
 
  private:
   Json read_locked(const std::string& name) const;
+  Document document(const std::string& name) const;
   void write_locked(const std::string& name, Document d);
   void check_videos(const std::filesystem::path& file, const Experiment& e) const;
 
@@ -46,7 +50,8 @@ class ExperimentStore {
 };
 
 /// A name for files and folders: letters, digits, dots, dashes and underscores, without a leading dot or
-/// dash; other characters become dashes. Empty if nothing is left.
+/// dash; other characters become dashes, also those of Unicode that are invisible or change the direction of
+/// text. Empty if nothing is left.
 std::string safe_name(const std::string& text);
 
 }  // namespace faba
