@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "server/jobs/job.h"
 #include "server/jobs/job_kind.h"
 #include "server/workspace.h"
 
