@@ -176,3 +176,33 @@ TEST_CASE("names with HTML, quotes, newlines, shell and bidi characters stay nam
   }
   CHECK_FALSE(fs::exists(lab.folder() / "pwned"));
 }
+
+TEST_CASE("S7: a body that is nested too deeply is refused, and so is a file of a run") {
+  const Served lab;
+  const std::string json = lab.own() + "Content-Type: application/json\r\n";
+  REQUIRE(status_of(lab.ask("POST /api/experiments", json, R"({"title":"x"})")) == 200);
+  const auto nested = [](const std::string& open, const std::string& close) {
+    std::string text;
+    for (int k = 0; k < 200000; ++k) text += open;
+    text += "1";
+    for (int k = 0; k < 200000; ++k) text += close;
+    return text;
+  };
+  for (const std::string& deep : {nested("{\"a\":", "}"), nested("[", "]")})
+    for (const auto& [request, before] :
+         {std::pair<const char*, const char*>{"POST /api/check", "{\"scenario\":"},
+          {"POST /api/jobs", "{\"kind\":\"drop\",\"values\":"},
+          {"POST /api/experiments/x", "{\"changes\":"},
+          {"POST /api/studies", "{\"kind\":\"identify\",\"study\":"},
+          {"POST /api/tracks/detect", "{\"file\":"},
+          {"POST /api/runs/x/tags", "{\"tags\":"}}) {
+      INFO(request);
+      const std::string a = lab.ask(request, json, before + deep + "}");
+      CHECK(status_of(a) == 422);
+    }
+  fs::create_directories(lab.folder() / "runs/deep");
+  write_file(lab.folder() / "runs/deep/scenario.toml", "title = 'x'\n");
+  write_file(lab.folder() / "runs/deep/manifest.json", "{\"seed\":" + nested("[", "]") + "}");
+  CHECK(json_of(lab.get("/api/runs")).empty());
+  CHECK(status_of(lab.get("/api/about")) == 200);
+}

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "server/api/responses.h"
 #include "server/embedded_page.h"
+#include "server/json_text.h"
 
 namespace faba {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 
 WebResponse failure(int status, const Error& e) {
-  return {.status = status, .body = Json{{"ok", false}, {"where", e.where()}, {"what", e.reason()}}.dump()};
+  return {.status = status, .body = json_text({{"ok", false}, {"where", e.where()}, {"what", e.reason()}})};
 }
 
 }  // namespace

@@ -2,12 +2,11 @@
 
 #include <map>
 
+#include "server/json_text.h"
+
 namespace faba {
 
-// Names of files need not be UTF-8.
-WebResponse json_answer(const Json& j) {
-  return {.body = j.dump(-1, ' ', false, Json::error_handler_t::replace)};
-}
+WebResponse json_answer(const Json& j) { return {.body = json_text(j)}; }
 
 WebResponse file_answer(const std::filesystem::path& file) {
   return {.type = content_type(file), .body = {}, .file = file};

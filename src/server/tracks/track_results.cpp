@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
+#include "core/json_input.h"
 #include "server/experiments/experiment_store.h"
 #include "server/opened_input.h"
 #include "server/request_values.h"
@@ -56,7 +57,7 @@ Json TrackResults::list() const {
   Json all = Json::array();
   for (const auto& [_, dir] : found) {
     if (all.size() >= kMostResults) break;
-    const Json j = Json::parse(read_file(dir / track_files::kSummary), nullptr, false);
+    const Json j = parse_json(read_file(dir / track_files::kSummary));
     if (!j.is_object()) continue;
     all.push_back({{"folder", fs::relative(dir, workspace_.root(), ec).string()},
                    {"video", fs::path(j.value("video", "")).filename().string()},
