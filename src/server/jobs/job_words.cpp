@@ -150,7 +150,7 @@ void check_experiment(const std::filesystem::path& path, const Workspace& worksp
 // Whether a word after the verb is one that job_words() makes.
 bool is_word_of(const JobKind& kind, const std::string& word, const Job& job, const Workspace& workspace) {
   if (word == "--json") return true;
-  const auto equals = word.find('=');
+  const auto equals = word.starts_with("--") ? word.find('=') : word.npos;
   const std::string option = equals == word.npos ? "" : word.substr(0, equals);
   const std::string value = equals == word.npos ? word : word.substr(equals + 1);
   for (const JobOutput& o : kind.outputs)

@@ -71,20 +71,22 @@ void OpenVideos::with(const std::filesystem::path& path, const std::function<voi
                       const std::function<RunVideo()>& find) {
   const std::shared_ptr<Video> video = video_of(path);
   const std::lock_guard in_use(video->mutex);
-  if (!video->frames) {
-    RunVideo found = find ? find() : run_video(path);
-    video->file.emplace(found.file);
-    found.file = video->file->path();
-    video->frames.emplace(std::move(found));
-    const std::lock_guard lock(mutex_);
-    video->bytes = video->frames->bytes();
-    close_oldest();
-  }
   try {
+    if (!video->frames) open(*video, find ? find() : run_video(path));
     use(*video->frames);
   } catch (const Error& e) {
+    if (!video->file) throw;
     throw renamed(e, video->file->path().string(), path.string());
   }
+}
+
+void OpenVideos::open(Video& video, RunVideo found) {
+  video.file.emplace(found.file);
+  found.file = video.file->path();
+  video.frames.emplace(std::move(found));
+  const std::lock_guard lock(mutex_);
+  video.bytes = video.frames->bytes();
+  close_oldest();
 }
 
 }  // namespace faba

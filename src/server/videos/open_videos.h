@@ -26,6 +26,7 @@ class OpenVideos {
  private:
   struct Video;
   std::shared_ptr<Video> video_of(const std::filesystem::path& path);
+  void open(Video& video, RunVideo found);
   void close_oldest();
 
   mutable std::mutex mutex_;
