@@ -23,9 +23,7 @@ Schema<GalleryCard> GalleryCard::schema() {
       .add("purpose", &C::purpose,
            {.doc = "Section of the gallery",
             .choices = {"start", "steer", "step-response", "coils", "thesis"}})
-      .add("summary", &C::summary, {.doc = "One sentence"})
-      .add("title_pt", &C::title_pt, {.doc = "Title in Portuguese"})
-      .add("summary_pt", &C::summary_pt, {.doc = "One sentence in Portuguese"});
+      .add("summary", &C::summary, {.doc = "One sentence"});
 }
 
 std::vector<GalleryCard> read_gallery_index(const std::filesystem::path& gallery) {

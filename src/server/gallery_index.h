@@ -15,8 +15,7 @@ struct GalleryCard {
   enum class Purpose { start, steer, step_response, coils, thesis };
   std::string name;  ///< file of the scene without ".toml"
   Purpose purpose = Purpose::start;
-  std::string summary;               ///< one sentence, English
-  std::string title_pt, summary_pt;  ///< Portuguese; empty: the English text is shown
+  std::string summary;  ///< one sentence
   static Schema<GalleryCard> schema();
 };
 
@@ -24,7 +23,7 @@ struct GalleryCard {
 /// those of the user. Throws Error(usage) with file, line and key.
 std::vector<GalleryCard> read_gallery_index(const std::filesystem::path& gallery);
 
-/// The purpose and the texts of a card for the page: `purpose`, `summary`, `title_pt`, `summary_pt`.
+/// The purpose and the text of a card for the page: `purpose`, `summary`.
 Json texts(const GalleryCard& card);
 
 }  // namespace faba

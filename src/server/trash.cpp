@@ -121,7 +121,8 @@ fs::path Trash::place_of(const std::string& name) const {
   return parent / relative.filename();
 }
 
-Trash::Item Trash::take(const std::string& name, const std::vector<std::string>& beside) {
+Trash::Item Trash::take(const std::string& name, const std::vector<std::string>& beside,
+                        std::function<void()> restored) {
   const std::lock_guard lock(mutex_);
   const fs::path place = place_of(name);
   std::error_code ec;
@@ -131,7 +132,7 @@ Trash::Item Trash::take(const std::string& name, const std::vector<std::string>&
   const int id = next_++;
   const fs::path mine = folder() / std::to_string(id);
   fs::create_directory(mine);
-  Kept kept{{id, name, bytes_of(place)}, {{name, mine / "0"}}};
+  Kept kept{{id, name, bytes_of(place)}, {{name, mine / "0"}}, std::move(restored)};
   if (!rename_new(place, mine / "0", name)) throw Error(Errc::internal, name, "cannot be deleted; try again");
   for (const std::string& other : beside) {
     const fs::path from = place_of(other), to = mine / std::to_string(kept.moved.size());
@@ -157,15 +158,23 @@ Trash::Item Trash::undo(int id) {
   for (const Moved& m : it->moved)
     if (is_there(place_of(m.name))) throw used(m.name);
   std::vector<const Moved*> done;
+  const auto back_to_trash = [&] {
+    for (const Moved* m : done | std::views::reverse) rename_new(place_of(m->name), m->kept, m->name);
+  };
   for (const Moved& m : it->moved) {
     const fs::path place = place_of(m.name);
     fs::create_directories(place.parent_path());
     if (!rename_new(m.kept, place, m.name)) {
-      for (const Moved* back : done | std::views::reverse)
-        rename_new(place_of(back->name), back->kept, back->name);
+      back_to_trash();
       throw used(m.name);
     }
     done.push_back(&m);
+  }
+  try {
+    if (it->restored) it->restored();
+  } catch (const Error&) {
+    back_to_trash();
+    throw;
   }
   Item item = it->item;
   std::error_code ec;

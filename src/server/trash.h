@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -30,11 +31,12 @@ class Trash {
   Trash& operator=(const Trash&) = delete;
 
   /// Moves a file or folder of the workspace, and the files `beside` that belong to it and need not exist.
-  /// Throws Error(input) if there is no such file, Error(usage) for a link and for a file on another file
-  /// system.
-  Item take(const std::string& name, const std::vector<std::string>& beside = {});
-  /// Moves it back. Throws Error(input) if there is no such item, Error(usage) if its name is used again;
-  /// then nothing is moved.
+  /// `restored`, if given, is called when undo() has moved the files back, and must not use the trash. Throws
+  /// Error(input) if there is no such file, Error(usage) for a link and for a file on another file system.
+  Item take(const std::string& name, const std::vector<std::string>& beside = {},
+            std::function<void()> restored = {});
+  /// Moves it back. Throws Error(input) if there is no such item, Error(usage) if its name is used again, and
+  /// the errors of `restored`; then nothing is moved.
   Item undo(int id);
   /// The newest last.
   std::vector<Item> items() const;
@@ -47,6 +49,7 @@ class Trash {
   struct Kept {
     Item item;
     std::vector<Moved> moved;
+    std::function<void()> restored;
   };
   std::filesystem::path place_of(const std::string& name) const;
   const std::filesystem::path& folder();

@@ -149,7 +149,7 @@ await step('the scale is measured in a picture of a ruler', async () => {
   await page.locator('.ruler [role=status]').waitFor();
   await until(async () => (await page.getByLabel('Scale').first().inputValue()) !== '', 'the scale is saved');
   await reload();
-  assert.match(toml(), /um_per_px_source = "calibration"/);
+  assert.match(toml(), /um_per_px_se = [\d.e-]+\num_per_px_source = "calibration"/);
 });
 
 await step('an error is beside its value, and a removed drop is reported', async () => {
@@ -175,6 +175,87 @@ await step('the viewer has the scale and the field reversal of the experiment', 
   assert.equal(await page.getByRole('spinbutton', { name: 'Field reversal' }).inputValue(), '20');
   await page.goBack();
   await page.getByRole('heading', { name: 'Videos' }).waitFor();
+});
+
+await step('marks, part and a measured scale are saved from the viewer, with undo', async () => {
+  const before = toml();
+  const saved = (part) => until(() => toml().includes(part), `${part} is saved`);
+  const undo = async () => {
+    await page.getByRole('button', { name: 'Undo', exact: true }).click();
+    await until(() => toml() === before, 'the change is undone');
+  };
+  await page.getByRole('link', { name: 'View drop-A-0.avi' }).click();
+  const reversal = page.getByRole('spinbutton', { name: 'Field reversal' });
+  await until(async () => (await reversal.count()) === 1 && (await reversal.inputValue()) === '20', 'the reversal of the experiment');
+  await reversal.fill('20.5');
+  await reversal.press('Tab');
+  await page.getByText('marked and not saved: 20.5 s').waitFor();
+  assert.equal(toml(), before, 'nothing is saved yet');
+  await page.getByRole('button', { name: 'Save: Field reversal' }).click();
+  await saved('reversal = "20.5 s"');
+  await undo();
+  await until(async () => (await reversal.inputValue()) === '20', 'the mark follows');
+  // The part, and an error beside its value.
+  const to = page.getByRole('textbox', { name: 'Part that is evaluated: To' });
+  await to.fill('18 s');
+  await to.press('Tab');
+  await page.locator('.viewed').getByRole('alert').getByText('is not later than').waitFor();
+  assert.match(complaints.splice(0).join(), /422/);
+  await to.fill('24 s');
+  await to.press('Tab');
+  await saved('to = "24 s"');
+  await undo();
+  // A line of 200 px over 100 um, each end with 1 px: 0.5 um/px, with a standard error of 0.5 sqrt(2) / 200.
+  for (const [key, v] of Object.entries({ x1: 10, y1: 50, x2: 210, y2: 50 })) {
+    await page.getByRole('spinbutton', { name: `Ruler: ${key} (px)` }).fill(String(v));
+    await page.getByRole('spinbutton', { name: `Ruler: ${key} (px)` }).press('Tab');
+  }
+  await page.getByLabel('Length of the line').fill('100');
+  assert.equal(await page.locator('[data-read="ruler-scale"]').textContent(), '0.5000 ± 0.0035 µm/px');
+  await page.getByRole('button', { name: 'Use for this video only' }).click();
+  await saved('um_per_px = 0.5\num_per_px_se = 0.00354\num_per_px_source = "ruler"');
+  await page.locator('[data-stated=scale]').getByText('0.5000 ± 0.0035 µm/px (ruler), of this video').waitFor();
+  await page.getByText(/ · 0\.5 µm\/px/).waitFor();
+  await shot('experiment-viewer');
+  await undo();
+  await page.goBack();
+  await page.getByRole('heading', { name: 'Videos' }).waitFor();
+});
+
+await step('an imported video is deleted after a question, and restored with its values', async () => {
+  const before = toml(), file = join(workspace, 'experiments/ageing-drops/videos/drop-B-3.avi'), rows = page.locator('tbody tr');
+  const ask = () => page.getByRole('button', { name: 'Remove: drop-B-3.avi' }).click();
+  const dialog = page.getByRole('dialog');
+  await ask();
+  await dialog.getByRole('button', { name: 'Cancel' }).click();
+  assert.equal(await rows.count(), 8);
+  await ask();
+  const [bytes] = /\(([\d.]+ [kM]B)\)/.exec(await dialog.getByRole('button', { name: /^Remove from the experiment and delete the file/ }).textContent()).slice(1);
+  await shot('experiment-remove');
+  await dialog.getByRole('button', { name: /^Remove from the experiment and delete the file/ }).click();
+  await until(async () => (await rows.count()) === 7, 'the row is gone');
+  assert.ok(!existsSync(file));
+  await reload(); // the deletion is in the trash of the lab
+  await page.getByText(`drop-B-3.avi is deleted (${bytes})`).waitFor();
+  await page.locator('.undo').getByRole('button', { name: 'Undo' }).click();
+  await until(async () => (await rows.count()) === 8, 'the row is back');
+  assert.deepEqual(readFileSync(file), readFileSync(films.B[3]));
+  assert.equal(toml(), before);
+  // The button for all changes undoes it as well.
+  await ask();
+  await dialog.getByRole('button', { name: /^Remove from the experiment and delete the file/ }).click();
+  await until(async () => (await rows.count()) === 7, 'the row is gone');
+  await page.getByRole('button', { name: 'Undo', exact: true }).first().click();
+  await until(async () => (await rows.count()) === 8, 'the row is back');
+  assert.equal(toml(), before);
+  // Only the entry.
+  await ask();
+  await dialog.getByRole('button', { name: 'Remove from the experiment, keep the file' }).click();
+  await until(async () => (await rows.count()) === 7, 'the row is gone');
+  assert.ok(existsSync(file));
+  await page.getByRole('button', { name: 'Undo', exact: true }).first().click();
+  await until(async () => (await rows.count()) === 8, 'the row is back');
+  assert.equal(toml(), before);
 });
 
 await step('two pages change one experiment', async () => {

@@ -16,27 +16,25 @@ TEST_CASE("the index of the gallery gives order, purpose and texts") {
   const test::TemporaryFolder folder("gallery");
   CHECK(read_gallery_index(folder.path()).empty());
   write_file(folder.path() / kGalleryIndex,
-             "[[scene]]\nname = 'b'\npurpose = 'step-response'\nsummary = 'One.'\n[[scene]]\nname = 'a'\n"
-             "title_pt = 'Um'\n");
+             "[[scene]]\nname = 'b'\npurpose = 'step-response'\nsummary = 'One.'\n[[scene]]\nname = 'a'\n");
   const auto cards = read_gallery_index(folder.path());
   REQUIRE(cards.size() == 2);
   CHECK(cards[0].name == "b");
-  CHECK(texts(cards[0]) ==
-        Json{{"purpose", "step-response"}, {"summary", "One."}, {"title_pt", ""}, {"summary_pt", ""}});
-  CHECK(texts(cards[1])["title_pt"] == "Um");
+  CHECK(texts(cards[0]) == Json{{"purpose", "step-response"}, {"summary", "One."}});
+  CHECK(cards[1].name == "a");
   write_file(folder.path() / kGalleryIndex, "[[scene]]\npurpose = 'fun'\n");
   CHECK_THROWS_WITH_AS(read_gallery_index(folder.path()), doctest::Contains("scene[0].purpose"),
                        const Error&);
 }
 
-TEST_CASE("the scenes of the program are listed in its index, once, with texts in both languages") {
+TEST_CASE("the scenes of the program are listed in its index, once, with a sentence") {
   const fs::path scenes = fs::path(FABA_SCENES);
   std::set<std::string> listed;
   for (const GalleryCard& c : read_gallery_index(scenes)) {
     INFO(c.name);
     CHECK(listed.insert(c.name).second);
     CHECK(fs::exists(scenes / (c.name + ".toml")));
-    for (const std::string* text : {&c.summary, &c.title_pt, &c.summary_pt}) CHECK_FALSE(text->empty());
+    CHECK_FALSE(c.summary.empty());
     CHECK(c.summary.size() < 150);
   }
   for (const fs::path& scene : Workspace(scenes.parent_path(), {}).scenes()) {

@@ -57,6 +57,27 @@ TEST_CASE("a deleted run is restored with all files") {
                        const Error&);
 }
 
+TEST_CASE("what belongs to a deletion is restored after its files, or nothing is") {
+  const Lab lab;
+  Trash trash(lab.workspace);
+  int calls = 0;
+  bool refuses = true;
+  const Trash::Item item = trash.take("runs/one", {"runs/one.toml"}, [&] {
+    ++calls;
+    CHECK(fs::exists(lab.root / "runs/one/series.csv"));
+    if (refuses) throw Error(Errc::input, "x", "gone");
+  });
+  CHECK_THROWS_WITH_AS(trash.undo(item.id), "x: gone", const Error&);
+  CHECK_FALSE(fs::exists(lab.root / "runs/one"));
+  CHECK_FALSE(fs::exists(lab.root / "runs/one.toml"));
+  REQUIRE(trash.items().size() == 1);
+  refuses = false;
+  trash.undo(item.id);
+  CHECK(calls == 2);
+  CHECK(fs::exists(lab.root / "runs/one.toml"));
+  CHECK(trash.items().empty());
+}
+
 TEST_CASE("undo is refused while the name is used again, and nothing is moved") {
   const Lab lab;
   Trash trash(lab.workspace);

@@ -1,7 +1,7 @@
 // The gallery: scenes in sections by their purpose.
 
 import type { Say, Word } from './i18n';
-import { withCode, type TextPart } from './text';
+import { programText, withCode, type TextPart } from './text';
 
 export const kPurposes = ['start', 'steer', 'step-response', 'coils', 'thesis', 'yours'] as const;
 export type Purpose = (typeof kPurposes)[number];
@@ -23,8 +23,6 @@ export interface SceneCard {
   /** Of scenes in the index of the gallery; the others are those of the user. */
   purpose?: string;
   summary?: string;
-  title_pt?: string;
-  summary_pt?: string;
 }
 
 export interface Section {
@@ -39,13 +37,10 @@ export function bySection(scenes: SceneCard[]): Section[] {
   return kPurposes.map((purpose) => ({ purpose, title: `gallery.${purpose}` as Word, scenes: scenes.filter((s) => purposeOf(s) === purpose) })).filter((s) => s.scenes.length > 0);
 }
 
-export const titleOfScene = (s: SceneCard, say: Say) => (say.language === 'pt' && s.title_pt) || s.title || s.name;
+export const titleOfScene = (s: SceneCard, say: Say) => programText(s.title, say) || s.name;
 
-/** One sentence: that of the index, or the first one of the comment. The Portuguese word "um" is not a unit. */
-export function summaryOf(s: SceneCard, say: Say): TextPart[] {
-  if (say.language === 'pt' && s.summary_pt) return [{ text: s.summary_pt, code: false }];
-  return withCode(s.summary || firstSentence(s.about ?? ''));
-}
+/** One sentence: that of the index, or the first one of the comment. */
+export const summaryOf = (s: SceneCard, say: Say): TextPart[] => withCode(s.summary || firstSentence(s.about ?? ''), say);
 /** Whether the comment of a scene has more than its card shows. */
 export const hasMore = (s: SceneCard) => !!s.about && s.about !== (s.summary || firstSentence(s.about));
 /** The text up to the first full stop before a capital letter; a stop after an initial or an abbreviation does not end a sentence. */

@@ -2,11 +2,18 @@
 
 import { RequestError } from './connection';
 import type { Say, Word } from './i18n';
-import { textIn } from './i18n/program/catalogue';
-import { micro } from './units';
+import { placeIn, textIn } from './i18n/program/catalogue';
+import { reportIn } from './i18n/program/report_texts';
+import { micro, microAfterNumber } from './units';
 
-/** A message of the program in the language of the page. The Portuguese word "um" is not a unit. */
-export const programText = (text: string, say: Say) => textIn(say.language, text) ?? micro(text);
+/**
+ * A text of the program in the language of the page. A text without a translation may be Portuguese, in which "um" is a unit only
+ * after a number.
+ */
+export const programText = (text: string, say: Say) => textIn(say.language, text) ?? withMicro(text, say);
+/** Likewise, a text of a report. */
+export const reportText = (text: string, say: Say) => reportIn(say.language, text) ?? withMicro(text, say);
+const withMicro = (text: string, say: Say) => (say.language === 'en' ? micro(text) : microAfterNumber(text));
 
 /** With a capital letter at the start; the sign µ remains. */
 export const capitalised = (text: string) => text.replace(/^[a-zà-ÿ]/, (c) => c.toUpperCase());
@@ -21,7 +28,7 @@ export function jobTitle(title: string, say: Say): string {
 /** A failure as one line: its place, and the reason. */
 export function failureText(t: { where?: string; what?: string; word?: Word }, say: Say): string {
   const what = t.word ? say(t.word) : programText(t.what ?? '', say);
-  return t.where ? `${t.where}: ${what}` : what;
+  return t.where ? `${placeIn(say.language, t.where)}: ${what}` : what;
 }
 
 /** An exception as a negative answer of the program. */
@@ -42,10 +49,11 @@ export interface TextPart {
   text: string;
   code: boolean;
 }
-/** Splits a description into text and code, which is in `backticks`. */
-export function withCode(text: string): TextPart[] {
-  const parts = text.split('`');
+/** A description in the language of the page as text and code, which is in `backticks`. */
+export function withCode(text: string, say: Say): TextPart[] {
+  const translation = textIn(say.language, text), parts = (translation ?? text).split('`');
+  const shown = (part: string) => (translation === undefined ? withMicro(part, say) : part);
   // Without a closing backtick the last one is a character.
   if (parts.length % 2 === 0) parts.splice(-2, 2, parts.slice(-2).join('`'));
-  return parts.map((part, i) => ({ text: i % 2 ? part : micro(part), code: i % 2 === 1 })).filter((part) => part.text !== '');
+  return parts.map((part, i) => ({ text: i % 2 ? part : shown(part), code: i % 2 === 1 })).filter((part) => part.text !== '');
 }

@@ -37,5 +37,7 @@ export function bytesText(bytes: number): string {
  * Writes the prefix micro as µ: "23 uT" becomes "23 µT". Keys such as um_per_px do not change. `us` is a unit only after a
  * number.
  */
-export const micro = (text: string) =>
-  text.replace(/(?<![\w.`-])u(?=(?:m|T|A|H|V|N|Pa|W)(?!\w))/g, 'µ').replace(/(?<=\d ?)u(?=s\b)/g, 'µ');
+export const micro = (text: string) => microAfterNumber(
+  text.replace(/(?<![\w.`-])u(?=(?:m|T|A|H|V|N|Pa|W)(?!\w))/g, 'µ'));
+/** Likewise, only after a number: in a text of another language "um" can be a word. */
+export const microAfterNumber = (text: string) => text.replace(/(?<=\d )u(?=(?:m|T|A|H|V|N|Pa|W)(?!\w))|(?<=\d ?)u(?=s\b)/g, 'µ');

@@ -1,6 +1,7 @@
 import { expect, test } from 'vitest';
 import { bySection, firstSentence, hasMore, isHeavy, kHeavy, summaryOf, titleOfScene, type SceneCard } from '../src/gallery';
 import { words } from '../src/i18n';
+import { loadTexts } from '../src/i18n/program/catalogue';
 
 const en = words('en'), pt = words('pt');
 const summary = (s: SceneCard, say: typeof en) => summaryOf(s, say).map((p) => p.text).join('');
@@ -10,10 +11,11 @@ test('sections have a fixed order; scenes without a purpose are those of the use
   const sections = bySection([card('mine'), card('c', { purpose: 'coils' }), card('s', { purpose: 'start' }), card('odd', { purpose: 'unknown' })]);
   expect(sections.map((s) => [s.purpose, s.scenes.map((c) => c.name)])).toEqual([['start', ['s']], ['coils', ['c']], ['yours', ['mine', 'odd']]]);
 });
-test('texts are in the language of the page if the index has them', () => {
-  const c = card('a', { summary: 'At 23 uT.', summary_pt: 'Conduz um enxame.', title: 'One', title_pt: 'Um' });
-  expect([titleOfScene(c, en), titleOfScene(c, pt)]).toEqual(['One', 'Um']);
-  expect([summary(c, en), summary(c, pt)]).toEqual(['At 23 µT.', 'Conduz um enxame.']);
+test('texts are in the language of the page if they have a translation', async () => {
+  await loadTexts('pt');
+  const c = card('a', { summary: 'At 23 uT.', title: 'A million cells' });
+  expect([titleOfScene(c, en), titleOfScene(c, pt)]).toEqual(['A million cells', 'Um milhão de células']);
+  expect([summary(c, en), summary(c, pt)]).toEqual(['At 23 µT.', 'At 23 µT.']);
   expect(titleOfScene(card('b', { title: '' }), pt)).toBe('b');
 });
 test('a scene that is not in the index shows the first sentence of its comment', () => {

@@ -28,6 +28,7 @@ describe('fixed texts of the program', () => {
     expect(programText('simulating', en)).toBe('simulating');
     expect(programText('900 um is out of range', pt)).toBe('900 µm is out of range');
     expect(programText('constructor', pt)).toBe('constructor');
+    expect(programText('falta; escolha um valor', pt)).toBe('falta; escolha um valor');
   });
   test('the verb of a job is translated, its file is not', () => {
     expect(jobTitle('field map: simulating.toml', pt)).toBe('mapa do campo: simulating.toml');
@@ -70,7 +71,7 @@ describe('a description with code', () => {
     ['`a` one ` more', [code('a'), plain(' one ` more')]],
     ['', []],
   ])('%s', (text, parts) => {
-    expect(withCode(text)).toEqual(parts);
+    expect(withCode(text, en)).toEqual(parts);
   });
 });
 

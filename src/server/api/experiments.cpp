@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "server/api/imported_videos.h"
 #include "server/api/lab_services.h"
 #include "server/api/responses.h"
 #include "server/request_values.h"
@@ -46,6 +47,12 @@ void add_experiment_routes(Routes& routes, const LabServices& lab) {
   });
   routes.add("POST", "/api/experiments/*/videos", [&lab](const auto& r, const auto& names) {
     return json_answer(pick(lab, names[0], body_of(r)));
+  });
+  routes.add("GET", "/api/experiments/*/videos", [&lab](const auto& r, const auto& names) {
+    return json_answer(describe_imported_video(lab, names[0], query_text(r, "file")));
+  });
+  routes.add("DELETE", "/api/experiments/*/videos", [&lab](const auto& r, const auto& names) {
+    return json_answer(trash_item_json(remove_imported_video(lab, names[0], query_text(r, "file"))));
   });
   routes.add("GET", "/api/experiments/*/imports", [&lab](const auto& r, const auto& names) {
     if (!r.query.contains("name")) return json_answer(lab.imports.incomplete(names[0]));

@@ -28,16 +28,36 @@ std::string revision_of(const std::string& content) {
   return h.hex();
 }
 
-Json card(const std::string& name, const fs::path& file) {
+std::string shown_folder(const std::string& name) { return fmt::format("{}/{}", kFolder, name); }
+
+Json card(const std::string& name, const ExperimentStore& store) {
   try {
-    const Experiment e = read_experiment(file);
+    const Experiment e = with_opened(store.folder(name), shown_folder(name), [](const fs::path& dir) {
+      return read_experiment(dir / kExperimentFile);
+    });
     return {{"name", name}, {"title", e.title}, {"drops", e.drops.size()}, {"videos", e.videos.size()}};
   } catch (const Error& e) {
     return {{"name", name}, {"title", name}, {"error", e.what()}};
   }
 }
 
-std::string shown_folder(const std::string& name) { return fmt::format("{}/{}", kFolder, name); }
+bool has_drop(const Document& d, const std::string& drop) {
+  const Experiment e = read_experiment(d);
+  return std::ranges::find(e.drops, drop, &ExperimentDrop::name) != e.drops.end();
+}
+
+// The list of videos; an experiment may have none.
+Json& videos_of(Document& d) {
+  Json& list = d.root["video"];
+  if (!list.is_array()) list = Json::array();
+  return list;
+}
+
+std::size_t position_of(const Json& videos, const std::string& file) {
+  std::size_t i = 0;
+  while (i < videos.size() && videos[i].value("file", "") != file) ++i;
+  return i;
+}
 
 bool is_utf8(const std::string& text) {
   try {
@@ -129,8 +149,7 @@ Json ExperimentStore::list() const {
   }
   std::sort(found.rbegin(), found.rend());
   Json all = Json::array();
-  for (const auto& [_, name] : found)
-    all.push_back(card(name, workspace_.root() / kFolder / name / kExperimentFile));
+  for (const auto& [_, name] : found) all.push_back(card(name, *this));
   return all;
 }
 
@@ -192,12 +211,60 @@ void ExperimentStore::add_video(const std::string& name, const std::string& file
   Document d = document(name);
   Json video = {{"file", file}};
   // Another page may have removed the drop during the upload.
-  const Experiment before = read_experiment(d);
-  if (std::ranges::find(before.drops, drop, &ExperimentDrop::name) != before.drops.end())
-    video["drop"] = drop;
-  if (!d.root.contains("video")) d.root["video"] = Json::array();
-  d.root["video"].push_back(std::move(video));
+  if (has_drop(d, drop)) video["drop"] = drop;
+  videos_of(d).push_back(std::move(video));
   write_locked(name, std::move(d));
+}
+
+VideoEntry ExperimentStore::video(const std::string& name, const std::string& file) const {
+  const std::lock_guard lock(mutex_);
+  Document d = document(name);
+  const Json& videos = videos_of(d);
+  const std::size_t i = position_of(videos, file);
+  if (i == videos.size())
+    throw Error(Errc::input, file.substr(0, kLongestName), "is not a video of this experiment");
+  return {i, videos[i]};
+}
+
+void ExperimentStore::remove_video(const std::string& name, const std::string& file) {
+  const std::lock_guard lock(mutex_);
+  Document d = document(name);
+  Json& videos = videos_of(d);
+  const std::size_t i = position_of(videos, file);
+  if (i == videos.size()) return;
+  videos.erase(i);
+  write_locked(name, std::move(d));
+}
+
+void ExperimentStore::restore_video(const std::string& name, const VideoEntry& entry) {
+  const std::lock_guard lock(mutex_);
+  Document d = document(name);
+  Json& videos = videos_of(d);
+  if (position_of(videos, entry.values.value("file", "")) < videos.size()) return;
+  Json values = entry.values;
+  // Another page may have removed the drop meanwhile.
+  if (!has_drop(d, values.value("drop", ""))) values.erase("drop");
+  videos.insert(videos.begin() + std::ptrdiff_t(std::min(entry.position, videos.size())), std::move(values));
+  write_locked(name, std::move(d));
+}
+
+std::vector<std::string> ExperimentStore::users_of(const fs::path& file, const std::string& but) const {
+  std::vector<std::string> users;
+  const auto is_file = [real = fs::weakly_canonical(file)](const fs::path& other) {
+    std::error_code ec;
+    return fs::weakly_canonical(other, ec) == real;
+  };
+  for (const Json& one : list()) {
+    if (one.contains("error")) continue;
+    const std::string name = one["name"];
+    const fs::path dir = folder(name);
+    const Experiment e = read_experiment(dir / kExperimentFile);
+    const bool shows = name != but && std::ranges::any_of(e.videos, [&](const ExperimentVideo& v) {
+                         return is_file(video_path(dir / kExperimentFile, v));
+                       });
+    if (shows || (!e.noise.empty() && is_file(dir / e.noise))) users.push_back(name);
+  }
+  return users;
 }
 
 void ExperimentStore::write_locked(const std::string& name, Document d) {

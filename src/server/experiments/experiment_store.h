@@ -10,6 +10,12 @@
 
 namespace faba {
 
+/// A [[video]] of an experiment file.
+struct VideoEntry {
+  std::size_t position = 0;  ///< in the list
+  Json values;
+};
+
 /// The experiments of a workspace: the folders below experiments/ with an experiment file. Several pages may
 /// change one experiment. Thread-safe.
 class ExperimentStore {
@@ -31,6 +37,15 @@ class ExperimentStore {
   /// Adds a video. `file`: relative to the folder of the experiment, or absolute; `drop`: its drop, ignored
   /// if the experiment has no such drop.
   void add_video(const std::string& name, const std::string& file, const std::string& drop);
+  /// The entry of a video. Throws Error(input) if the experiment has no such video.
+  VideoEntry video(const std::string& name, const std::string& file) const;
+  /// Removes the entry of a video, if it has one. The file stays.
+  void remove_video(const std::string& name, const std::string& file);
+  /// Adds an entry that was removed, at its former position, unless the experiment has the video again.
+  void restore_video(const std::string& name, const VideoEntry& entry);
+  /// Names of the experiments that use a file as a video or for the noise, without the entry of the
+  /// experiment `but` for it. Experiments with an invalid file are not searched.
+  std::vector<std::string> users_of(const std::filesystem::path& file, const std::string& but) const;
 
   /// Its folder. Throws Error(input) if there is no such experiment.
   std::filesystem::path folder(const std::string& name) const;

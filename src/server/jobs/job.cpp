@@ -8,7 +8,23 @@ namespace {
 
 constexpr std::array<const char*, 5> kStates = {"waiting", "running", "done", "failed", "cancelled"};
 
+// The file that a word of a command line names: "runs/steer" of "./runs/steer" or "--noise=./runs/steer".
+std::string_view file_of(std::string_view word) {
+  if (word.starts_with("--")) word.remove_prefix(std::min(word.size(), word.find('=')));
+  if (word.starts_with('=')) word.remove_prefix(1);
+  if (word.starts_with("./")) word.remove_prefix(2);
+  return word;
+}
+
 }  // namespace
+
+bool job_uses(const Job& j, const std::string& path) {
+  const auto names = [&](const std::string& word) {
+    const std::string_view file = file_of(word);
+    return file == path || file.starts_with(path + "/");
+  };
+  return !is_over(j) && (names(j.out.string()) || std::any_of(j.words.begin(), j.words.end(), names));
+}
 
 Json job_json(const Job& j) {
   return {{"id", j.id},

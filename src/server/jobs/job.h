@@ -28,6 +28,9 @@ struct Job {
   std::string error = {};         ///< error message
   Json result = {};               ///< output of --json
 };
+/// Whether a job that has not ended names a file or folder of the workspace, or files below it, in its
+/// command line or as its output.
+bool job_uses(const Job& j, const std::string& path);
 /// Everything except the result, which can be large.
 Json job_json(const Job& j);
 /// The state of a word of job_json(); failed for any other word.

@@ -122,9 +122,10 @@ void check_keys(const JobKind& kind, const Json& values) {
                   fmt::format("is not a value of {}; it must be one of {}", kind.verb_text(), known));
 }
 
-// A leading dash would be an option.
-std::string path_word(const std::string& file) { return file.starts_with('/') ? file : "./" + file; }
-// The inverse of path_word(); empty for another word.
+// With "./" a name that starts with a dash does not become an option. Files of allowed folders have absolute
+// paths.
+std::string word_of_file(const std::string& file) { return file.starts_with('/') ? file : "./" + file; }
+// The inverse of word_of_file(); empty for another word.
 std::string file_of_word(const std::string& word) {
   return word.starts_with('/') ? word : word.starts_with("./") ? word.substr(2) : "";
 }
@@ -239,9 +240,9 @@ std::vector<std::string> job_words(const JobKind& kind, const Json& values, cons
     if (is_file(i)) {
       for (const std::string& file : files_of(i, value, workspace))
         if (i.option.empty())
-          words.push_back(path_word(file));
+          words.push_back(word_of_file(file));
         else
-          options.push_back(i.option + "=" + path_word(file));
+          options.push_back(i.option + "=" + word_of_file(file));
     } else if (i.kind == In::flag) {
       if (!value.is_boolean()) refuse(i, fmt::format("{} must be true or false", shown(value)));
       if (value.get<bool>()) options.push_back(i.option);

@@ -24,11 +24,6 @@ std::string path_of(const std::string& name) { return "runs/" + name; }
 // The scenario of a recording of the live lab.
 std::string scenario_beside(const std::string& name) { return "runs/" + name + ".toml"; }
 
-// Whether a word of a command line names the run or a file in it.
-bool names_run(const std::string& word, const std::string& run) {
-  return word == run || word == run + ".toml" || word.starts_with(run + "/");
-}
-
 }  // namespace
 
 fs::path RunCatalogue::folder(const std::string& name) const {
@@ -80,9 +75,7 @@ void RunCatalogue::check_unused(const std::string& name, const fs::path& dir) co
   if (RunLock::held(dir))
     throw Error(Errc::usage, name, "a process is writing this run; wait until it ends or cancel it");
   for (const Job& j : jobs_.jobs()) {
-    if (j.state > Job::State::running) continue;
-    const auto uses = [&](const std::string& word) { return names_run(word, path_of(name)); };
-    if (uses(j.out.string()) || std::any_of(j.words.begin(), j.words.end(), uses))
+    if (job_uses(j, path_of(name)) || job_uses(j, scenario_beside(name)))
       throw Error(Errc::usage, name,
                   fmt::format("the job \"{}\" uses this run; wait until it ends or cancel it", j.title));
   }

@@ -30,6 +30,38 @@ Schema<ExperimentDrop> drop_schema() {
       });
 }
 
+constexpr const char* kSources[] = {"calibration", "ruler", "typed", "metadata"};
+constexpr double kLeastScale = 1e-3, kMostScale = 1e3;  // um/px
+
+FieldInfo error_info() {
+  return {.min = 0, .max = kMostScale, .doc = "Standard error of um_per_px, if the scale was measured"};
+}
+FieldInfo source_info() { return {.doc = fmt::format("Origin of the scale: {}", fmt::join(kSources, ", "))}; }
+
+// What is wrong with the scale of an experiment or video; empty: nothing.
+template <class T>
+std::string wrong_scale(const T& of) {
+  const std::string& s = of.um_per_px_source;
+  if (!s.empty() && std::ranges::find(kSources, s) == std::end(kSources))
+    return fmt::format("um_per_px_source = \"{}\" must be one of {}", s, fmt::join(kSources, ", "));
+  if (!of.um_per_px && of.um_per_px_se)
+    return fmt::format("um_per_px_se = {:g} is the standard error of um_per_px, which is missing; give both",
+                       *of.um_per_px_se);
+  if (of.um_per_px && of.um_per_px_se && *of.um_per_px_se >= *of.um_per_px)
+    return fmt::format("um_per_px_se = {:g} must be less than um_per_px = {:g}", *of.um_per_px_se,
+                       *of.um_per_px);
+  return "";
+}
+
+// What is wrong with the order of the segments; empty: nothing.
+std::string wrong_order(const std::vector<ExperimentSegment>& segments) {
+  for (std::size_t i = 1; i < segments.size(); ++i)
+    if (segments[i].from_s < segments[i - 1].to_s)
+      return fmt::format("segment = [...]: item {} starts at {:g} s, before item {} ends ({:g} s)", i,
+                         segments[i].from_s, i - 1, segments[i - 1].to_s);
+  return "";
+}
+
 FieldInfo time_info(const char* doc) { return {.unit = "s", .min = 0, .max = kLongest, .doc = doc}; }
 
 Schema<ExperimentVideo> video_schema() {
@@ -52,9 +84,13 @@ Schema<ExperimentVideo> video_schema() {
       .add("from", &Video::from_s, time_info("Start of the part of the video that is evaluated"))
       .add("to", &Video::to_s, time_info("End of the part of the video that is evaluated"))
       .add("um_per_px", &Video::um_per_px,
-           {.min = 1e-3,
-            .max = 1e3,
+           {.min = kLeastScale,
+            .max = kMostScale,
             .doc = "Micrometres per pixel, if the video has another scale than the experiment"})
+      .add("um_per_px_se", &Video::um_per_px_se, error_info())
+      .add("um_per_px_source", &Video::um_per_px_source, source_info())
+      .add("segment", &Video::segments,
+           {.doc = "[[video.segment]]: field segments, in order, for faba identify"})
       .add("note", &Video::note, {.doc = "Remarks"})
       .check([](const Video& v) -> std::string {
         if (v.file.empty()) return "key \"file\" is missing; specify a video: file = \"videos/a.mp4\"";
@@ -62,7 +98,8 @@ Schema<ExperimentVideo> video_schema() {
           return fmt::format("to = {:g} s is not later than from = {:g} s", *v.to_s, *v.from_s);
         if (v.reversal_s && v.to_s && *v.reversal_s >= *v.to_s)
           return fmt::format("reversal = {:g} s is not before to = {:g} s", *v.reversal_s, *v.to_s);
-        return "";
+        const std::string scale = wrong_scale(v);
+        return scale.empty() ? wrong_order(v.segments) : scale;
       });
 }
 
@@ -72,16 +109,14 @@ Schema<Experiment> schema() {
       .add("note", &Experiment::note, {.doc = "Remarks"})
       .add("objective", &Experiment::objective, {.doc = "Objective of the microscope, such as 20x"})
       .add("um_per_px", &Experiment::um_per_px,
-           {.min = 1e-3, .max = 1e3, .doc = "Micrometres per pixel; without it lengths are in px"})
-      .add("um_per_px_source", &Experiment::um_per_px_source,
-           {.doc = "Origin of the scale: calibration, typed or metadata"})
+           {.min = kLeastScale,
+            .max = kMostScale,
+            .doc = "Micrometres per pixel; without it lengths are in px"})
+      .add("um_per_px_se", &Experiment::um_per_px_se, error_info())
+      .add("um_per_px_source", &Experiment::um_per_px_source, source_info())
       .add("noise", &Experiment::noise,
            {.doc = "Video of a dead sample, from which the noise of the flow is measured"})
-      .check([](const Experiment& e) -> std::string {
-        const std::string& s = e.um_per_px_source;
-        if (s.empty() || s == "calibration" || s == "typed" || s == "metadata") return "";
-        return fmt::format("um_per_px_source = \"{}\" must be \"calibration\", \"typed\" or \"metadata\"", s);
-      });
+      .check([](const Experiment& e) { return wrong_scale(e); });
 }
 
 void check_names(const Node& root, const Experiment& e) {
@@ -100,6 +135,22 @@ void check_names(const Node& root, const Experiment& e) {
 }
 
 }  // namespace
+
+Schema<ExperimentSegment> ExperimentSegment::schema() {
+  return Schema<ExperimentSegment>("segment", "A time interval in which the field is constant")
+      .add("from", &ExperimentSegment::from_s, time_info("Start time in the video"))
+      .add("to", &ExperimentSegment::to_s, time_info("End time in the video"))
+      .add("direction", &ExperimentSegment::direction,
+           {.unit = "rad",
+            .min = -2 * M_PI,
+            .max = 2 * M_PI,
+            .doc = "Direction in which the cells swim, counter-clockwise: 0 deg is right, 90 deg is up in "
+                   "the picture"})
+      .check([](const ExperimentSegment& s) -> std::string {
+        if (s.to_s > s.from_s) return "";
+        return fmt::format("to = {:g} s is not later than from = {:g} s", s.to_s, s.from_s);
+      });
+}
 
 std::optional<fs::path> experiment_file(const fs::path& path) {
   std::error_code ec;
@@ -136,9 +187,13 @@ fs::path video_path(const fs::path& experiment_file, const ExperimentVideo& vide
 }
 
 std::optional<VideoScale> scale_of(const Experiment& e, const ExperimentVideo& video) {
-  if (video.um_per_px) return VideoScale{video.um_per_px, "typed", {}};
+  const auto scale = [](const auto& of) {
+    const std::string source = of.um_per_px_source.empty() ? "typed" : of.um_per_px_source;
+    return VideoScale{of.um_per_px, source, {}, of.um_per_px_se};
+  };
+  if (video.um_per_px) return scale(video);
   if (!e.um_per_px) return {};
-  return VideoScale{e.um_per_px, e.um_per_px_source.empty() ? "typed" : e.um_per_px_source, {}};
+  return scale(e);
 }
 
 std::optional<double> swimming_direction_deg(const Experiment& e, const ExperimentVideo& video) {

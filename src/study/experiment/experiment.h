@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/toml.h"
+#include "core/schema.h"
 #include "study/data/video_scale.h"
 
 namespace faba {
@@ -18,6 +18,15 @@ struct ExperimentDrop {
   CellPolarity polarity = CellPolarity::unknown;
 };
 
+/// A field segment: a time interval of a video in which the field is constant.
+struct ExperimentSegment {
+  double from_s = 0, to_s = 0;
+  /// In which the cells swim: counter-clockwise from the right, y up, rad.
+  std::optional<double> direction;
+
+  static Schema<ExperimentSegment> schema();
+};
+
 /// A video of a drop.
 struct ExperimentVideo {
   std::string file;                       ///< relative to the folder of the experiment
@@ -28,15 +37,21 @@ struct ExperimentVideo {
   std::optional<double> field_strength;   ///< T
   std::optional<double> from_s, to_s;     ///< part of the video that is evaluated
   std::optional<double> um_per_px;        ///< instead of that of the experiment
+  std::optional<double> um_per_px_se;     ///< its standard error
+  std::string um_per_px_source;           ///< see Experiment
+  std::vector<ExperimentSegment> segments;  ///< in order, without overlap; empty: not stated
   std::string note;
 };
 
 /// An experiment: a folder with experiment.toml, videos and results.
 struct Experiment {
   std::string title, note, objective;
-  std::optional<double> um_per_px;  ///< empty: not known, and lengths are in px
-  std::string um_per_px_source;     ///< "calibration", "typed" or "metadata"; empty: not stated
-  std::string noise;                ///< video of a dead sample, for the threshold of the flow
+  std::optional<double> um_per_px;     ///< empty: not known, and lengths are in px
+  std::optional<double> um_per_px_se;  ///< its standard error; empty: not known
+  /// "calibration" (picture of a ruler), "ruler" (a line that was drawn over a known length), "typed" or
+  /// "metadata"; empty: not stated.
+  std::string um_per_px_source;
+  std::string noise;  ///< video of a dead sample, for the threshold of the flow
   std::vector<ExperimentDrop> drops;
   std::vector<ExperimentVideo> videos;
 };

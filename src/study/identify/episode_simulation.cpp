@@ -15,7 +15,7 @@ namespace {
 // A round cell of diameter d = 0.85 F, blurred with sd s = 0.3676 F, has full width at half maximum F:
 // (F / 2.355)^2 = d^2 / 16 + s^2.
 constexpr double kDiameter = 0.85, kBlur = 0.3676;
-constexpr double kUnbounded = 1e5;  // px: largest radius of an arena without boundary
+constexpr double kUnbounded = 16384;  // px: largest radius of an arena, for one without boundary
 
 std::string quantity(double value, const char* unit) { return fmt::format("{} {}", value, unit); }
 

@@ -169,6 +169,11 @@ void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index,
   a.timed = source.fps() > 0;
   if (a.input.scale) a.scale = *a.input.scale;
   a.um_per_px = a.scale.um_per_px;
+  if (a.um_per_px && a.scale.standard_error)
+    a.notes.push_back(
+        fmt::format("the scale is {:.4g} um/px with a standard error of {:.2g} um/px ({}); intervals of "
+                    "speeds in um/s include it",
+                    *a.um_per_px, *a.scale.standard_error, a.scale.source));
   a.view_px = double(source.width()) * source.height() * source.shrink() * source.shrink();
   if (!cells) return;
   if (cells->reads_frames() && !cells->mean())

@@ -80,6 +80,10 @@ struct VideoActivity {
   std::vector<std::string> notes;
 };
 
+/// Speed of the responding objects in um/s: its interval includes the standard error of the scale. Empty
+/// without a response or a scale.
+std::optional<Measured> speed_um_s(const VideoActivity& video);
+
 /// Point (1) of Fig. 4.9 of the thesis, the onset of the response; empty without a response.
 std::optional<ChangePoint> onset_of(const VideoActivity& video);
 /// A good peak that at least doubles the activity: random clusters of cells give smaller peaks.

@@ -54,6 +54,7 @@ void archive_list(Archive& a, std::vector<T>& list, Fields&& fields) {
 
 void archive_activity(Archive& a, VideoActivity& v) {
   archive_optional(a, v.scale.um_per_px);
+  archive_optional(a, v.scale.standard_error);
   a& v.scale.source& v.scale.ignored& v.signature& v.threshold_px& v.direction_deg& v.direction_given;
   archive_list(a, v.segments, [&](MotionSegment& s) { a& s.t0_s& s.t1_s& s.direction_deg; });
   a& v.t_s& v.amount& v.along& v.mean_amount& v.mean_along& v.timed& v.frame_s;

@@ -59,6 +59,17 @@ std::optional<ChangePoint> onset_of(const VideoActivity& a) {
   return a.response->change;
 }
 
+std::optional<Measured> speed_um_s(const VideoActivity& a) {
+  if (!a.um_per_px || !a.response || !a.response->speed_px_s) return {};
+  constexpr double k90 = 1.645;  // quantile of the normal distribution for a 90 % interval
+  const Measured& px = *a.response->speed_px_s;
+  const double um = *a.um_per_px, of_scale = k90 * a.scale.standard_error.value_or(0) * px.value;
+  const auto limit = [&](double of_px, double side) {
+    return um * px.value + side * std::hypot(um * (of_px - px.value), of_scale);
+  };
+  return Measured{um * px.value, {limit(px.ci90[0], -1), limit(px.ci90[1], 1)}};
+}
+
 bool has_peak(const VideoActivity& a) { return a.fit.good && a.fit.amplitude > a.fit.offset; }
 
 ActivityResult activity_result(std::vector<VideoActivity> videos) {

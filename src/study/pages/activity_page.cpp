@@ -188,11 +188,11 @@ std::string fraction_text(const VideoActivity& a) {
 
 std::string speed_text(const VideoActivity& a) {
   if (!a.response || !a.response->speed_px_s) return "–";
-  const double scale = a.um_per_px.value_or(1);
-  const Measured& v = *a.response->speed_px_s;
-  const double width = scale * width_of(v.ci90);
-  return fmt::format("{} [{}, {}] {}/s", decimals(scale * v.value, width), decimals(scale * v.ci90[0], width),
-                     decimals(scale * v.ci90[1], width), a.um_per_px ? "µm" : "px");
+  const std::optional<Measured> um = speed_um_s(a);
+  const Measured& v = um ? *um : *a.response->speed_px_s;
+  const double width = width_of(v.ci90);
+  return fmt::format("{} [{}, {}] {}/s", decimals(v.value, width), decimals(v.ci90[0], width),
+                     decimals(v.ci90[1], width), um ? "µm" : "px");
 }
 
 std::string segments_table(const ActivityResult& r) {
@@ -288,8 +288,7 @@ std::string activity_page(const ActivityResult& r, const Provenance& provenance)
   std::string out = fmt::format("<h1>Activity</h1>\n<p class=\"lead\">{}</p>\n", escape_markup(lead(r)));
   out += quality_markup(all_warnings(r));
   for (const VideoActivity& a : r.videos)
-    for (const std::string& note : a.notes)
-      out += fmt::format("<p class=\"note\">{}: {}.</p>\n", escape_markup(title_of(a)), escape_markup(note));
+    for (const std::string& note : a.notes) out += note_markup(note, title_of(a), "note");
   int number = 0;
   for (const Figure& f : activity_figures(r))
     out += fmt::format(

@@ -51,9 +51,9 @@ Json response_json(const Response& r) {
   return j;
 }
 
-void add_measured(Json& j, const std::string& key, const std::optional<Measured>& m, double scale = 1) {
-  j[key] = m ? Json(m->value * scale) : Json();
-  j[key + "_ci90"] = m ? Json{m->ci90[0] * scale, m->ci90[1] * scale} : Json();
+void add_measured(Json& j, const std::string& key, const std::optional<Measured>& m) {
+  j[key] = m ? Json(m->value) : Json();
+  j[key + "_ci90"] = m ? Json{m->ci90[0], m->ci90[1]} : Json();
 }
 
 void add_response(Json& j, const VideoActivity& a) {
@@ -64,7 +64,7 @@ void add_response(Json& j, const VideoActivity& a) {
                                       speed = a.response ? a.response->speed_px_s : none;
   add_measured(j, "responding_fraction", fraction);
   add_measured(j, "speed_px_per_s", speed);
-  add_measured(j, "speed_um_per_s", a.um_per_px ? speed : none, a.um_per_px.value_or(1));
+  add_measured(j, "speed_um_per_s", speed_um_s(a));
   j["response"] = a.response ? response_json(*a.response) : Json();
 }
 
@@ -74,6 +74,7 @@ Json video_json(const VideoActivity& a) {
   j["exposure_s"] = or_null(a.input.exposure_s);
   j["experiment"] = a.input.experiment;
   add_scale(j, a.scale);
+  j["um_per_px_se"] = or_null(a.scale.standard_error);
   j["pairs"] = a.t_s.size();
   j["threshold_px"] = a.threshold_px;
   j["direction_deg"] = a.direction_deg;

@@ -176,12 +176,9 @@ std::string compare_page(const Comparison& c, const CompareJob& job, const Prove
       c.runs.size() == 1 ? escape_markup(name_of(c.runs.front().file)) : counted(c.runs.size(), "video"),
       escape_markup(c.alignment));
   out += quality_markup(all_warnings(c));
-  for (const std::string& note : c.notes)
-    out += fmt::format("<p class=\"note\">{}.</p>\n", escape_markup(note));
+  for (const std::string& note : c.notes) out += note_markup(note, "", "note");
   for (const ComparedRun& r : c.runs)
-    for (const std::string& note : r.notes)
-      out +=
-          fmt::format("<p class=\"note\">{}: {}.</p>\n", escape_markup(name_of(r.file)), escape_markup(note));
+    for (const std::string& note : r.notes) out += note_markup(note, name_of(r.file), "note");
   out += fmt::format(
       "<figure class=\"wide\">\n<h3>Distance between the flows over time</h3>\n{}<figcaption>Figure 1. "
       "Quadratic-Chi "

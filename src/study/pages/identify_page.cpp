@@ -25,15 +25,21 @@ std::string with_interval(const FoundParameter& p) {
                      q.shown_unit().empty() ? "" : " " + q.shown_unit());
 }
 
+// The key of a parameter, which is the same in every language, and its interval.
+std::string estimate_markup(const FoundParameter& p) {
+  return fmt::format("<code>{}</code> {}", escape_markup(p.parameter.name()),
+                     escape_markup(with_interval(p)));
+}
+
 std::string lead(const Identification& r) {
   const FoundModel& best = r.models[r.best];
   std::string found;
   for (const FoundParameter& p : best.parameters)
-    if (!p.parameter.nuisance())
-      found += fmt::format("{}{} {}", found.empty() ? "" : ", ", p.parameter.name(), with_interval(p));
+    if (!p.parameter.nuisance()) found += (found.empty() ? "" : ", ") + estimate_markup(p);
   return fmt::format(
-      "<p class=\"lead\">{}</p>\n<p class=\"details\">{}: {} (posterior median and 90 % interval).</p>\n",
-      escape_markup(r.words), escape_markup(best.name), escape_markup(found));
+      "<p class=\"lead\">{}</p>\n<p class=\"details\"><span>{}</span>: {} <span>(posterior median and 90 % "
+      "interval)</span>.</p>\n",
+      escape_markup(r.words), escape_markup(best.name), found);
 }
 
 bool single_experiment(const Identification& r) {
@@ -89,9 +95,7 @@ std::string bootstrap_text(const Identification& r) {
 std::string parameters_text(const FoundModel& m, bool nuisance) {
   std::string out;
   for (const FoundParameter& p : m.parameters)
-    if (p.parameter.nuisance() == nuisance)
-      out += fmt::format("{}{} {}", out.empty() ? "" : "<br />", escape_markup(p.parameter.name()),
-                         escape_markup(with_interval(p)));
+    if (p.parameter.nuisance() == nuisance) out += (out.empty() ? "" : "<br />") + estimate_markup(p);
   return out.empty() ? "–" : out;
 }
 

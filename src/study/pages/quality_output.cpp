@@ -7,6 +7,19 @@
 #include "study/plot/markup.h"
 
 namespace faba {
+namespace {
+
+// The parts of a warning are texts of their own, because pages translate a report text by text.
+std::string span(const std::string& text) { return fmt::format("<span>{}</span>", escape_markup(text)); }
+
+std::string warning_markup(const Warning& w) {
+  std::string out = span(w.aspect) + ": " + span(w.what);
+  if (!w.evidence.empty()) out += " (" + span(w.evidence) + ")";
+  if (!w.advice.empty()) out += "; " + span(w.advice);
+  return fmt::format("<p class=\"warning\">{}.</p>\n", out);
+}
+
+}  // namespace
 
 void add_quality(nlohmann::ordered_json& j, const std::vector<Warning>& warnings) {
   j["quality"] = word_of(quality_of(warnings));
@@ -29,9 +42,13 @@ std::string quality_markup(const std::vector<Warning>& warnings) {
   if (warnings.empty()) return "";
   std::string out =
       fmt::format("<p>Quality of the measurement: <b>{}</b>.</p>\n", word_of(quality_of(warnings)));
-  for (const Warning& w : warnings)
-    out += fmt::format("<p class=\"warning\">{}.</p>\n", escape_markup(sentence(w)));
+  for (const Warning& w : warnings) out += warning_markup(w);
   return out;
+}
+
+std::string note_markup(const std::string& note, const std::string& file, const char* style) {
+  const std::string where = file.empty() ? "" : span(file) + ": ";
+  return fmt::format("<p class=\"{}\">{}{}.</p>\n", style, where, span(note));
 }
 
 }  // namespace faba

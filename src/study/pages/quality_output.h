@@ -17,5 +17,7 @@ void add_warnings(nlohmann::ordered_json& j, const std::vector<Warning>& warning
 void add_scale(nlohmann::ordered_json& j, const VideoScale& scale);
 /// For a page: the quality, and a box for each warning. Empty without warnings.
 std::string quality_markup(const std::vector<Warning>& warnings);
+/// For a page: a note in its own paragraph, of the class `style`; after the name of its file, if it has one.
+std::string note_markup(const std::string& note, const std::string& file, const char* style);
 
 }  // namespace faba

@@ -15,6 +15,7 @@
 #include "study/pages/frame_strip.h"
 #include "study/pages/latency_figure.h"
 #include "study/pages/provenance_output.h"
+#include "study/pages/quality_output.h"
 #include "study/pages/run_figures.h"
 #include "study/plot/inline_picture.h"
 #include "study/plot/markup.h"
@@ -193,6 +194,13 @@ std::string fact(const char* name, const std::string& value) {
   return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", name, escape_markup(value));
 }
 
+// Keys, values and hashes, which are the same in every language.
+std::string code_fact(const std::string& name, const std::string& value) {
+  if (value.empty()) return {};
+  return fmt::format("<tr><th scope=\"row\">{}</th><td><code>{}</code></td></tr>\n", name,
+                     escape_markup(value));
+}
+
 /// "13.0 s (195 frames of 66.7 ms)"; without a manifest's duration "12.9 s from the first to the last of 195
 /// frames".
 std::string duration_fact(const Metrics& m, const RunInfo& info) {
@@ -207,14 +215,14 @@ std::string provenance(const Metrics& m, const RunInfo& info, const std::string&
   out += fact("Program", "Faba " + info.version);
   out += fact("Duration", duration_fact(m, info));
   for (std::size_t i = 0; i < info.swarms.size(); ++i) {
-    out += fact(info.swarms.size() == 1 ? "Swarm" : fmt::format("Swarm {}", i + 1).c_str(), info.swarms[i]);
+    out += code_fact(info.swarms.size() == 1 ? "Swarm" : fmt::format("Swarm {}", i + 1), info.swarms[i]);
   }
-  out += fact("Polarity", info.polarity);
-  if (info.arena) out += fact("Arena", info.arena->type);
+  out += code_fact("Polarity", info.polarity);
+  if (info.arena) out += code_fact("Arena", info.arena->type);
   if (info.um_per_px) out += fact("Picture scale", fmt::format("{:.4g} µm per px", *info.um_per_px));
   out += fact("Seed", info.seed);
-  out += fact("Scenario hash", info.scenario_hash);
-  out += fact("State hash", info.state_hash);
+  out += code_fact("Scenario hash", info.scenario_hash);
+  out += code_fact("State hash", info.state_hash);
   if (!scenario.empty()) {
     Sha256 sum;
     sum.add(scenario);
@@ -230,8 +238,9 @@ std::string provenance(const Metrics& m, const RunInfo& info, const std::string&
   out += fmt::format("<p>To reproduce the run, execute in this directory:</p>\n<pre><code>{}</code></pre>\n",
                      escape_markup(command));
   if (!info.state_hash.empty()) {
-    out += fmt::format("<p class=\"note\">The same version of Faba gives the same state hash, {}.</p>\n",
-                       escape_markup(info.state_hash));
+    out += fmt::format(
+        "<p class=\"note\">The same version of Faba gives the same state hash, <code>{}</code>.</p>\n",
+        escape_markup(info.state_hash));
   }
   return out;
 }
@@ -258,8 +267,7 @@ std::string body_of(const std::filesystem::path& run_dir, const std::string& tit
                                 escape_markup(summary.outcome));
   if (!summary.details.empty())
     out += fmt::format("<p class=\"details\">{}</p>\n", escape_markup(summary.details));
-  for (const std::string& note : info.notes)
-    out += fmt::format("<p class=\"warning\">{}.</p>\n", escape_markup(note));
+  for (const std::string& note : info.notes) out += note_markup(note, "", "warning");
   if (!info.um_per_px)
     out += "<p class=\"note\">The run has no picture scale, so lengths are in pixels only.</p>\n";
   if (!info.complete)

@@ -119,6 +119,19 @@ TEST_CASE("files are inside the workspace") {
     CHECK(contains(f.error("flow", {{"video", wrong}}), "is not a file name"));
 }
 
+TEST_CASE("a file of an allowed folder is named by its absolute path") {
+  const Files f;
+  const test::TemporaryFolder other("allowed");
+  write_file(other.path() / "c.mp4", "");
+  const Workspace w(f.folder.path(), {}, {other.path()});
+  const std::string file = fs::canonical(other.path() / "c.mp4").string();
+  const Words words =
+      job_words(job_kind("activity"), {{"videos", {file, "a.mp4"}}, {"noise", file}}, w, "runs/x");
+  CHECK(words[1] == file);
+  CHECK(words[2] == "./a.mp4");
+  CHECK(std::count(words.begin(), words.end(), "--noise=" + file) == 1);
+}
+
 TEST_CASE("messages have the input, the value, what is permitted and advice") {
   const Files f;
   const Json video = {{"videos", {"a.mp4"}}};

@@ -132,11 +132,16 @@ TEST_CASE("a run that is being written or used by a job is not deleted") {
                          const Error&);
     CHECK_THROWS_AS(lab.runs.rename("one", "two"), const Error&);
   }
-  const int job =
-      lab.jobs.add({.title = "compare: one", .words = {"1000", "runs/one"}, .page = "a", .out = "b"});
-  CHECK_THROWS_WITH_AS(lab.runs.remove("one"), doctest::Contains("the job \"compare: one\" uses this run"),
-                       const Error&);
-  lab.jobs.cancel(job);
+  const int running = lab.jobs.add({.title = "first", .words = {"1000"}, .page = "a", .out = "b"});
+  // As the page starts jobs, in the queue.
+  for (const char* word : {"./runs/one", "--reference=./runs/one", "./runs/one.toml"}) {
+    const int job =
+        lab.jobs.add({.title = "compare: one", .words = {"compare", word}, .page = "a", .out = "b"});
+    CHECK_THROWS_WITH_AS(lab.runs.remove("one"), doctest::Contains("the job \"compare: one\" uses this run"),
+                         const Error&);
+    lab.jobs.cancel(job);
+  }
+  lab.jobs.cancel(running);
   while (lab.jobs.jobs()[0].state <= Job::State::running) usleep(10000);
   // It is interrupted, but no process writes it.
   CHECK(named(lab.runs.list(), "one")["complete"] == false);

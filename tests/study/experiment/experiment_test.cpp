@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "core/error.h"
 #include "core/file.h"
 #include "tests/temporary_folder.h"
@@ -53,6 +55,49 @@ TEST_CASE("an experiment file is read with units") {
   CHECK(video_path("/lab/experiments/x/experiment.toml", e.videos[1]) == "/data/b.mp4");
 }
 
+TEST_CASE("a measured scale has its standard error and source, of the experiment and of a video") {
+  const Experiment e = experiment_of(R"(
+um_per_px = 0.64
+um_per_px_se = 0.01
+um_per_px_source = "calibration"
+[[video]]
+file = "a.mp4"
+[[video]]
+file = "b.mp4"
+um_per_px = 1.2
+um_per_px_se = 0.05
+um_per_px_source = "ruler"
+[[video]]
+file = "c.mp4"
+um_per_px = 1.3
+)");
+  CHECK(scale_of(e, e.videos[0])->standard_error == 0.01);
+  CHECK(scale_of(e, e.videos[1])->standard_error == 0.05);
+  CHECK(scale_of(e, e.videos[1])->source == "ruler");
+  CHECK(!scale_of(e, e.videos[2])->standard_error);  // not that of another scale
+  CHECK(scale_of(e, e.videos[2])->source == "typed");
+}
+
+TEST_CASE("field segments of a video, with angles counter-clockwise") {
+  const Experiment e = experiment_of(R"(
+[[video]]
+file = "a.mp4"
+[[video.segment]]
+from = "5.6 s"
+to = "8.5 s"
+direction = "90 deg"
+[[video.segment]]
+from = "8.5 s"
+to = "18.2 s"
+)");
+  REQUIRE(e.videos[0].segments.size() == 2);
+  CHECK(e.videos[0].segments[0].from_s == 5.6);
+  CHECK(*e.videos[0].segments[0].direction == doctest::Approx(M_PI / 2));
+  CHECK(!e.videos[0].segments[1].direction);
+  CHECK(experiment_schema()["properties"]["video"]["items"]["properties"]["segment"]["items"]["properties"]
+            .contains("direction"));
+}
+
 TEST_CASE("the swimming direction follows from the field and the polarity") {
   Experiment e = experiment_of(kOne);
   // Up in the picture is 270 degrees with y down; south-seeking cells swim against the field.
@@ -78,7 +123,15 @@ TEST_CASE("errors of an experiment file name the value and the permitted values"
   fails("[[video]]\nexposure = \"1 s\"", "specify a video");
   fails("[[video]]\nfile = \"a.mp4\"\nfrom = \"4 s\"\nto = \"3 s\"", "is not later than");
   fails("[[video]]\nfile = \"a.mp4\"\nexposure = \"-4 s\"", "exposure");
-  fails("um_per_px_source = \"guess\"", "\"metadata\"");
+  fails("um_per_px_source = \"guess\"", "must be one of calibration, ruler, typed, metadata");
+  fails("um_per_px_se = 0.1", "um_per_px, which is missing");
+  fails("um_per_px = 0.5\num_per_px_se = 0.5", "must be less than um_per_px = 0.5");
+  fails("[[video]]\nfile = \"a.mp4\"\num_per_px_se = 0.1", "um_per_px, which is missing");
+  const std::string video = "[[video]]\nfile = \"a.mp4\"\n";
+  fails(video + "segment = [{ from = \"2 s\", to = \"2 s\" }]", "to = 2 s is not later than from = 2 s");
+  fails(video + "segment = [{ from = \"1 s\", to = \"3 s\" }, { from = \"2 s\", to = \"4 s\" }]",
+        "item 1 starts at 2 s, before item 0 ends (3 s)");
+  fails(video + "segment = 3", "segment");
   fails("drop = 3", "[[drop]]");
 }
 

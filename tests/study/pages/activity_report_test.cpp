@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <string>
 
 #include "tests/study/well_formed.h"
@@ -62,6 +63,21 @@ TEST_CASE("activity report: onset, fraction and speed with their 90 % intervals"
   CHECK(video["speed_um_per_s"] == 50);
   CHECK(video["speed_um_per_s_ci90"][1] == 55);
   CHECK(video["response"]["reversal_s"] == 0.25);
+}
+
+TEST_CASE("activity report: the interval of a speed in um/s includes the standard error of the scale") {
+  ActivityResult r = one_video(true);
+  CHECK(activity_json(r)["videos"][0]["um_per_px_se"].is_null());
+  r.videos[0].scale.um_per_px = 0.5;
+  r.videos[0].scale.standard_error = 0.1;
+  const auto video = activity_json(r)["videos"][0];
+  CHECK(video["um_per_px_se"] == 0.1);
+  CHECK(video["speed_um_per_s"] == 50);
+  // 5 um/s of the speed, and 1.645 * 0.1 um/px * 100 px/s of the scale.
+  CHECK(video["speed_um_per_s_ci90"][0].get<double>() == doctest::Approx(50 - std::hypot(5, 16.45)));
+  CHECK(video["speed_um_per_s_ci90"][1].get<double>() == doctest::Approx(50 + std::hypot(5, 16.45)));
+  CHECK(video["speed_px_per_s_ci90"][1] == 110);
+  CHECK(has(activity_page(r), "50 [33, 67] µm/s"));
 }
 
 TEST_CASE("activity report: a failed fit has a reason and no onset, maximum or width") {

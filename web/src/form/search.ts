@@ -2,6 +2,7 @@
 
 import { getContext, setContext } from 'svelte';
 import type { Say } from '../i18n';
+import { programText } from '../text';
 import { variant, type Schema } from './schema';
 import { englishTitle, titleOf } from './titles';
 
@@ -10,7 +11,7 @@ export const wordsOf = (query: string) => query.toLowerCase().split(/\s+/).filte
 
 /** Whether key, title or description of a value itself have all the words. */
 export function isMatch(words: string[], key: string, schema: Schema, say: Say): boolean {
-  const text = [key, englishTitle(key, schema), titleOf(key, schema, say), schema.description ?? ''].join(' ').toLowerCase();
+  const text = [key, englishTitle(key, schema), titleOf(key, schema, say), schema.description ?? '', programText(schema.description ?? '', say)].join(' ').toLowerCase();
   return words.every((w) => text.includes(w));
 }
 
@@ -21,7 +22,7 @@ export function hasMatch(words: string[], key: string, schema: Schema, value: an
     Object.entries(properties ?? {}).some(([k, s]) => k !== 'type' && k !== 'preset' && hasMatch(words, k, s, table?.[k], say));
   if (schema.oneOf) {
     const part = variant(schema, typeof value === 'string' ? value : (value?.type ?? ''));
-    return part !== undefined && (words.every((w) => (part.description ?? '').toLowerCase().includes(w)) || below(part.properties, value));
+    return part !== undefined && (isMatch(words, '', part, say) || below(part.properties, value));
   }
   if (schema.items?.properties || schema.items?.oneOf)
     return Array.isArray(value) && value.some((one) => (schema.items!.oneOf ? hasMatch(words, key, schema.items!, one, say) : below(schema.items!.properties, one)));

@@ -120,7 +120,7 @@ export const pt: Record<keyof typeof en, string> = {
   'scenario.needs_restart': 'vale após reiniciar',
   'scenario.changed_now': 'alterado',
   'scenario.show_error': 'Mostrar o valor',
-  'scenario.names': 'A palavra ao lado de um título é a chave do valor em um arquivo de cenário; as descrições estão em inglês.',
+  'scenario.names': 'A palavra ao lado de um título é a chave do valor em um arquivo de cenário.',
   'read.swarm': 'Enxame',
   'read.spread': 'dispersão',
   'read.goal': 'distância ao ponto de referência',

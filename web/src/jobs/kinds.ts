@@ -38,6 +38,9 @@ export interface Estimate {
   from: 'measured' | 'assumed';
 }
 
+/** Whether a job names a file of the workspace in its command line. */
+export const namesFile = (j: Job, file: string) => j.words.some((w) => w === file || w === `./${file}`);
+
 let kinds: Promise<KindInfo[]> | null = null;
 /** The kinds of jobs of the program; requested once. */
 export function jobKinds(): Promise<KindInfo[]> {

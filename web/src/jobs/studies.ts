@@ -1,6 +1,7 @@
 // Studies that are composed in the page: JSON with the keys of a study file; see POST /api/studies.
 
-import { amount, isNumber, type Schema, variant } from '../form/schema';
+import { amount, degrees, isNumber, type Schema, variant } from '../form/schema';
+import type { FieldSegment } from '../pages/experiments/experiment';
 import { showQuantity } from '../quantity';
 import { steps, type NumberPath } from './kinds';
 
@@ -50,6 +51,12 @@ export function newName(type: string, names: string[]): string {
 export function candidateTable(c: CandidateModel) {
   const free = Object.fromEntries(c.free.map((f) => [f.path, f.prior === 'full' ? true : f.prior === 'range' ? [f.a, f.b] : { mean: f.a, sd: f.b }]));
   return { ...(c.name && c.name !== c.type ? { name: c.name } : {}), type: c.type, free };
+}
+
+/** A field segment as text: "5.6 s – 8.5 s, 90°". */
+export function segmentText(s: FieldSegment): string {
+  const deg = degrees(s.direction);
+  return `${s.from} – ${s.to}, ${deg === undefined ? '?' : `${Math.round(deg)}°`}`;
 }
 
 /** A parameter of a sweep: its values in equal steps. */

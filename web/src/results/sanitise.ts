@@ -3,6 +3,8 @@
 // one is built with allowed elements, attributes and addresses; all else is dropped with its content. The content security
 // policy of the page, which forbids inline scripts, inline styles and other origins, is a second barrier.
 
+import { translated, type Translate } from './translate';
+
 /** What is read of a parsed document. */
 export interface Source {
   nodeType: number;
@@ -71,26 +73,17 @@ export function sanitised(node: Source, folder: string, inDrawing = false): (Cle
   return out;
 }
 
-type Translate = (text: string) => string;
-
-/** The translation of a text between tags: white space around it and the content of `code` do not change. */
-function shown(text: string, tag: string, translate: Translate): string {
-  const core = text.trim();
-  return core === '' || tag === 'code' || tag === 'pre' ? text : text.replace(core, () => translate(core));
-}
-const kTextAttributes = ['aria-label', 'alt', 'title', 'data-x', 'data-y', 'data-legend'];
-
-/** The elements of sanitised content, with their texts translated. */
-export function built(content: (Clean | string)[], document: Document, translate: Translate = (text) => text, tag = ''): DocumentFragment {
+/** The elements of sanitised content. */
+export function built(content: (Clean | string)[], document: Document): DocumentFragment {
   const fragment = document.createDocumentFragment();
   for (const one of content) {
     if (typeof one === 'string') {
-      fragment.append(shown(one, tag, translate));
+      fragment.append(one);
       continue;
     }
     const element = one.svg ? document.createElementNS(kSvg, one.tag) : document.createElement(one.tag);
-    for (const [name, value] of one.attributes) element.setAttribute(name, kTextAttributes.includes(name) ? translate(value) : value);
-    element.append(built(one.children, document, translate, one.tag));
+    for (const [name, value] of one.attributes) element.setAttribute(name, value);
+    element.append(built(one.children, document));
     fragment.append(element);
   }
   return fragment;
@@ -99,5 +92,5 @@ export function built(content: (Clean | string)[], document: Document, translate
 /** A report as elements of the page, with its texts translated; null if it is not well-formed XML. */
 export function reportElements(xml: string, folder: string, translate: Translate): DocumentFragment | null {
   const parsed = new DOMParser().parseFromString(xml, 'application/xml');
-  return parsed.querySelector('parsererror') ? null : built(sanitised(parsed as unknown as Source, folder), document, translate);
+  return parsed.querySelector('parsererror') ? null : built(translated(sanitised(parsed as unknown as Source, folder), translate), document);
 }

@@ -63,8 +63,12 @@ function fromJson(text: string): VideoOverlays | null {
   }
   // `faba drop --json`
   if (Array.isArray(j.center_px) && j.radius_px > 0) return { edge: { x: j.center_px[0], y: j.center_px[1], radius: j.radius_px } };
-  // `faba activity --json`, whose directions are clockwise
-  const a = Array.isArray(j.videos) ? j.videos[0] : undefined;
+  return ofActivity(j);
+}
+
+/** The output of `faba activity --json`, whose directions are clockwise, for a video or the first one; null for another object. */
+export function ofActivity(j: any, file?: string): VideoOverlays | null {
+  const a = Array.isArray(j?.videos) ? j.videos.find((v: any) => file === undefined || v.video === file || v.video === `./${file}`) : undefined;
   if (!a || !Array.isArray(a.segments)) return null;
   const segments = a.segments.map((s: any) => ({ from_s: s.t0_s, to_s: s.t1_s, direction_deg: flipped(s.direction_deg) }));
   return { segments, reversal_s: a.response?.reversal_s ?? null };

@@ -14,10 +14,12 @@ Schema<ScaleParams> ScaleParams::schema() {
            {.min = 1e-3,
             .max = 1e3,
             .doc = "Micrometres per pixel for a picture whose scale is not known, instead of um_per_px: the "
-                   "simulation uses it, and results are stated in pixels only"})
+                   "simulation uses it, and results are stated in pixels only",
+            .title = "Nominal image scale"})
       .add("um_per_px_source", &ScaleParams::um_per_px_source,
            {.doc = "Origin of um_per_px, for the manifest; default: typed if um_per_px is given",
-            .choices = {"default", "typed", "calibration", "metadata"}})
+            .choices = {"default", "typed", "calibration", "metadata"},
+            .title = "Source of the image scale"})
       .add("iteration", &ScaleParams::iteration,
            {.unit = "s",
             .min = 1e-5,

@@ -32,10 +32,10 @@ std::string with_error(double value, double se) {
   return fmt::format("{:.{}f} +- {:.{}f}", value, digits, se, digits);
 }
 
-std::string with_interval(const Measured& m, double scale) {
-  const double width = scale * width_of(m.ci90);
-  return fmt::format("{} [{}, {}]", decimals(scale * m.value, width), decimals(scale * m.ci90[0], width),
-                     decimals(scale * m.ci90[1], width));
+std::string with_interval(const Measured& m) {
+  const double width = width_of(m.ci90);
+  return fmt::format("{} [{}, {}]", decimals(m.value, width), decimals(m.ci90[0], width),
+                     decimals(m.ci90[1], width));
 }
 
 void print_response(const VideoActivity& a) {
@@ -43,7 +43,7 @@ void print_response(const VideoActivity& a) {
   const Response& r = *a.response;
   const char* unit = a.timed ? "s" : "frames";
   if (const auto onset = onset_of(a)) {
-    fmt::print("  onset {} {} (90 % interval; {})\n", with_interval({onset->t_s, onset->ci90}, 1), unit,
+    fmt::print("  onset {} {} (90 % interval; {})\n", with_interval({onset->t_s, onset->ci90}), unit,
                r.source == Response::Source::detected
                    ? "time of the field reversal unknown"
                    : fmt::format("field reversal at {:g} {}, {}", r.earliest_s, unit, reversal_source(r)));
@@ -51,11 +51,12 @@ void print_response(const VideoActivity& a) {
     fmt::print("  no response to the field reversal\n");
   }
   if (r.fraction)
-    fmt::print("  responding fraction {} (90 % interval; {})\n", with_interval(*r.fraction, 1),
+    fmt::print("  responding fraction {} (90 % interval; {})\n", with_interval(*r.fraction),
                r.fraction_method);
+  const std::optional<Measured> um = speed_um_s(a);
   if (r.speed_px_s)
-    fmt::print("  speed {} {}/s (90 % interval)\n", with_interval(*r.speed_px_s, a.um_per_px.value_or(1)),
-               a.um_per_px ? "um" : "px");
+    fmt::print("  speed {} {}/s (90 % interval)\n", with_interval(um ? *um : *r.speed_px_s),
+               um ? "um" : "px");
 }
 
 void print_video(const VideoActivity& a) {

@@ -16,6 +16,7 @@
 #include "study/identify/matched_look.h"
 #include "study/stats/statistics.h"
 #include "study/tracks/track_survey.h"
+#include "vision/cells/resting_cells.h"
 #include "vision/cells/tracker.h"
 #include "vision/cells/video_ground.h"
 #include "vision/files/grey_video.h"
@@ -151,10 +152,22 @@ std::vector<Episode> episodes_of(const ResponseVideo& v, Boundary boundary,
   return episodes;
 }
 
+// Difference of the cells in a frame from the background, in units of its light: the 90 % quantile of the
+// pixels that differ by more than five standard deviations of the noise.
+double cell_contrast(const GrayF& frame, const VideoBackground& ground, Polarity polarity) {
+  std::vector<double> differences;
+  for (std::size_t i = 0; i < frame.px.size(); ++i) {
+    const double brighter = double(frame.px[i]) / kWhite - double(ground.light.px[i]);
+    const double d = polarity == Polarity::bright ? brighter : -brighter;
+    if (d > 5 * ground.noise_sd) differences.push_back(d);
+  }
+  return differences.empty() ? 1 : quantile(differences, 0.9);
+}
+
 // Background and noise. With Measure::density the background is a high (or low) quantile over time, because
 // dense groups cover the same pixels most of the time; with Measure::tracks everything that does not move is
 // background.
-void estimate_background(ResponseVideo& v, Measure measure, double from_s, double to_s,
+void estimate_background(ResponseVideo& v, const GrayF& first, Measure measure, double from_s, double to_s,
                          const std::function<void()>& tick) {
   VideoBackgroundOptions o;
   o.fps = v.input.part.fps;
@@ -165,7 +178,13 @@ void estimate_background(ResponseVideo& v, Measure measure, double from_s, doubl
     o.quantile = v.view.cells.polarity == Polarity::bright ? 1 - kCoverage : kCoverage;
   o.from_s = from_s - 0.5 * v.view.frame_s;
   o.to_s = to_s + 0.5 * v.view.frame_s;
-  v.ground = std::make_shared<const VideoBackground>(read_video_background(v.file, o));
+  VideoBackground ground = read_video_background(v.file, o);
+  // Cells at rest would be invisible in front of themselves, and simulated ones are not.
+  if (measure == Measure::density)
+    v.resting =
+        remove_resting_cells(ground.light, v.view.cells.cell_px,
+                             cell_contrast(first, ground, v.view.cells.polarity), v.view.cells.polarity);
+  v.ground = std::make_shared<const VideoBackground>(std::move(ground));
   Background b{v.ground->light, GrayF(v.view.width, v.view.height), 0};
   for (float& x : b.level.px) x *= float(kWhite);
   std::fill(b.noise_sd.px.begin(), b.noise_sd.px.end(), float(std::max(0.25, v.ground->noise_sd * kWhite)));
@@ -201,7 +220,7 @@ TrackSurvey survey_view(ResponseVideo& v, Boundary boundary, Measure measure,
   v.view.frame_s = s.frame_s;
   v.view.cells.cell_px = std::clamp(s.size_px, 1.0, 20.0);
   v.view.cells.polarity = s.polarity == Polarity::bright ? Polarity::bright : Polarity::dark;
-  estimate_background(v, measure, v.input.part.from_s, v.input.part.from_s + s.duration_s, tick);
+  estimate_background(v, s.first, measure, v.input.part.from_s, v.input.part.from_s + s.duration_s, tick);
   if (boundary == Boundary::drop) {
     DropEdgeOptions edge;
     edge.name = name;
@@ -344,7 +363,12 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
   // Outside the segments the swarm may stay in one position for most of the time: estimate again within them.
   if (measure == Measure::density && (segments.front().t0_s > input.part.from_s + 0.2 * survey.duration_s ||
                                       segments.back().t1_s < input.part.from_s + 0.8 * survey.duration_s))
-    estimate_background(v, measure, segments.front().t0_s, segments.back().t1_s, tick);
+    estimate_background(v, survey.first, measure, segments.front().t0_s, segments.back().t1_s, tick);
+  if (v.resting > 0)
+    v.notes.push_back(
+        fmt::format("{} {} of the width of a cell {} in one place: counted as cells that are not motile, "
+                    "which dirt would be as well",
+                    v.resting, v.resting == 1 ? "spot" : "spots", v.resting == 1 ? "stays" : "stay"));
 
   take_frames(v, boundary, measure, tick);
   return v;

@@ -22,8 +22,9 @@ std::string coverages_of(const nlohmann::json& models) {
       if (p.at("nuisance").get<bool>()) continue;
       for (const auto& c : p.at("coverage"))
         if (c.at("level") == 0.9)
-          out += fmt::format("{}{}: {} in {} of {} (right intervals: {} to {})", out.empty() ? "" : ", ",
-                             model, path, c.at("inside").get<int>(), c.at("experiments").get<int>(),
+          out += fmt::format("{}<span>{}: {} in {} of {} (right intervals: {} to {})</span>",
+                             out.empty() ? "" : ", ", escape_markup(model), escape_markup(path),
+                             c.at("inside").get<int>(), c.at("experiments").get<int>(),
                              c.at("band99")[0].get<int>(), c.at("band99")[1].get<int>());
     }
   return out;
@@ -45,10 +46,10 @@ std::string calibration_note(const IdentifyStudy& study) {
   if (j["design_hash"] != design_hash(study))
     return not_calibrated(name + " is of another design; calibrate this study again");
   return fmt::format(
-      "<p class=\"details\">Calibration of this study ({}, {}): the 90 % interval contains the true value: "
-      "{}.</p>\n",
+      "<p class=\"details\"><span>Calibration of this study ({}, {}): the 90 % interval contains the true "
+      "value:</span> {}.</p>\n",
       escape_markup(name), j["look"] == "video" ? "rendered experiments" : "positions",
-      escape_markup(coverages_of(j["models"])));
+      coverages_of(j["models"]));
 }
 
 }  // namespace faba

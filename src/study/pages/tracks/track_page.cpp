@@ -203,6 +203,7 @@ std::string table(const TrackMeasurement& m) {
   return out + "</tbody></table>\n";
 }
 
+/// As markup: each text that a page translates is an element.
 std::string lead(const TrackMeasurement& m) {
   const TrackSummary& s = m.summary;
   if (s.tracks == 0) return "No tracks.";
@@ -210,9 +211,9 @@ std::string lead(const TrackMeasurement& m) {
   if (quality_of(m.warnings) == Quality::poor)
     return tracks + "; the quality of the measurement is poor, and no speed is stated here.";
   if (!one_population(m)) {
-    std::string text = tracks + ": ";
+    std::string text = fmt::format("<span>{}</span>", tracks);
     for (const SpeedPopulation& p : m.populations)
-      text += (&p == m.populations.data() ? "" : "; ") + population(p, m);
+      text += fmt::format("{}<span>{}</span>", &p == m.populations.data() ? ": " : "; ", population(p, m));
     return text + ".";
   }
   if (s.speed_count > 0 && s.order > 0.5)
@@ -228,10 +229,9 @@ std::string lead(const TrackMeasurement& m) {
 
 std::string track_page(const TrackMeasurement& m, const std::vector<Figure>& figures, const RgbImage& tracks,
                        const Provenance& provenance) {
-  std::string out = fmt::format("<h1>Tracks</h1>\n<p class=\"lead\">{}</p>\n", escape_markup(lead(m)));
+  std::string out = fmt::format("<h1>Tracks</h1>\n<p class=\"lead\">{}</p>\n", lead(m));
   out += quality_markup(m.warnings);
-  for (const std::string& note : m.notes)
-    out += fmt::format("<p class=\"warning\">{}.</p>\n", escape_markup(note));
+  for (const std::string& note : m.notes) out += note_markup(note, "", "warning");
   out += cards(m);
   out += "<h2>Figures</h2>\n<figure class=\"wide\">\n<h3>Tracks</h3>\n" +
          inline_picture(tracks, "Tracks on the first frame") +

@@ -3,8 +3,12 @@
 
 import { jobs } from './jobs';
 import { names } from './names';
+import { refusals } from './refusals';
+import { places } from './refusals/system';
+import { scenes } from './scenes';
+import { schema } from './schema';
 import { titles } from './titles';
 
-/** Texts of forms. A title may have another translation than the same words elsewhere. */
-export { titles };
-export const texts: Record<string, string> = { ...names, ...jobs };
+/** Places of messages, and texts of forms. A title may have another translation than the same words elsewhere. */
+export { places, titles };
+export const texts: Record<string, string> = { ...refusals, ...names, ...jobs, ...schema, ...scenes };

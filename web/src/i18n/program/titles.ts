@@ -24,4 +24,22 @@ export const titles: Record<string, string> = {
   // Microscope and record
   'Cell diameter': 'Diâmetro da célula', 'Cell length': 'Comprimento da célula', Contrast: 'Contraste', 'Exposure time': 'Tempo de exposição', 'Read noise': 'Ruído de leitura', Noise: 'Ruído', Background: 'Fundo', Mode: 'Modo', Level: 'Nível',
   Tracks: 'Trajetórias', 'Tracks every': 'Intervalo das trajetórias', Compress: 'Compactar', Video: 'Vídeo', 'Video every': 'Intervalo do vídeo', Lossless: 'Sem perdas', 'As seen': 'Como a câmera vê', Checkpoint: 'Ponto de retomada', Resolution: 'Resolução',
+  // Other values of scenarios and the bench
+  Halo: 'Halo', 'Halo width': 'Largura do halo', Emission: 'Emissão', 'Background emission': 'Emissão do fundo', 'Bleaching time': 'Tempo de fotobranqueamento',
+  'PSF, standard deviation': 'PSF, desvio padrão', 'Depth spread': 'Dispersão em profundidade', 'Depth of field': 'Profundidade de campo', Vignetting: 'Vinhetagem', Unevenness: 'Desuniformidade',
+  'Edge contrast': 'Contraste da borda', 'Edge width': 'Largura da borda', 'Outside level': 'Nível externo', Drift: 'Deriva', Flicker: 'Cintilação', 'Full well': 'Capacidade do poço', Bits: 'Bits',
+  Follow: 'Seguimento', Collision: 'Colisão', Position: 'Posição', Axis: 'Eixo', Name: 'Nome', Resistance: 'Resistência', Inductance: 'Indutância', Distance: 'Distância', Turns: 'Espiras',
+  Opposed: 'Opostas', 'Wire radius': 'Raio do fio', 'Measured current': 'Corrente medida', Within: 'Dentro de', Turn: 'Rotação', Expansion: 'Expansão', 'Half size': 'Metade do tamanho',
+  Residual: 'Resíduo', Coefficients: 'Coeficientes', Length: 'Comprimento', 'Core permeability': 'Permeabilidade do núcleo', 'Core length': 'Comprimento do núcleo', 'Core radius': 'Raio do núcleo',
+  'Inner radius': 'Raio interno', 'Outer radius': 'Raio externo', Lag: 'Atraso', Slowdown: 'Desaceleração', 'Tolerance sigma': 'Sigma da tolerância', 'Oxygen diffusivity': 'Difusividade do oxigênio',
+  Tolerated: 'Tolerado', Near: 'Perto de', Cell: 'Célula', Cells: 'Células', 'Threshold, standard deviation': 'Limiar, desvios padrão', Absorb: 'Absorção', Learn: 'Aprendizado', Trapezoid: 'Trapézio',
+  Output: 'Saída', Rotating: 'Parte girante', Frequency: 'Frequência', Quality: 'Qualidade', Levels: 'Níveis', Window: 'Janela', Iterations: 'Iterações', Neighbourhood: 'Vizinhança', Sigma: 'Sigma',
+  'Smoothness α²': 'Suavidade α²', Solver: 'Método de solução', Smooth: 'Suavização', Pyramid: 'Pirâmide', Warps: 'Deformações', From: 'De', To: 'Até', Library: 'Biblioteca', Made: 'Hash',
+  'Camera timeout': 'Tempo limite da câmera', Delay: 'Atraso', 'Command deadline': 'Tempo limite dos comandos', 'Heartbeat deadline': 'Tempo limite do sinal de atividade',
+  'Thermal time': 'Tempo térmico', 'Sense tolerance': 'Tolerância da medida', 'Sense settling': 'Acomodação da medida', 'Sense samples': 'Amostras da medida', Gather: 'Reunião', Before: 'Antes',
+  Repeat: 'Repetições', Every: 'Intervalo', Bench: 'Bancada simulada', Saturation: 'Saturação', 'Rise time': 'Tempo de subida', 'Fall time': 'Tempo de descida', 'Least volts': 'Tensão mínima',
+  'Most volts': 'Tensão máxima', 'Enable time': 'Tempo de habilitação', 'Enable line': 'Linha de habilitação', Fault: 'Falha', 'Fault after': 'Falha após', 'Freeze after': 'Travamento após',
+  Neutral: 'Neutro', Table: 'Tabela', 'Max RMS': 'RMS máximo', Sense: 'Medida', 'Sense gain': 'Ganho da medida', 'Sense neutral': 'Neutro da medida', Device: 'Dispositivo', Interface: 'Interface',
+  Width: 'Largura', Height: 'Altura', Exposure: 'Exposição', 'White balance': 'Balanço de branco', 'Frames/s': 'Quadros por segundo', Fast: 'Rápido', Port: 'Porta', Baud: 'Baud', Outputs: 'Saídas',
+  Event: 'Evento', Frame: 'Quadro', 'Nominal image scale': 'Escala nominal da imagem', 'Source of the image scale': 'Origem da escala da imagem',
 };

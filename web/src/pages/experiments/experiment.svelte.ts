@@ -1,6 +1,7 @@
 // One experiment in the page: it is saved with every change, and follows the changes of other pages.
 
-import { get, post, RequestError } from '../../connection';
+import { get, post, remove, RequestError } from '../../connection';
+import type { Deleted } from '../runs/UndoBar.svelte';
 import { inverse, valueAt, type Change, type Conflict, type Experiment } from './experiment';
 
 interface Answer {
@@ -9,6 +10,9 @@ interface Answer {
   conflicts?: Conflict[];
 }
 
+/** What can be undone: changes of values, or the deletion of a video, by its number in the trash. */
+type Done = Change[] | number;
+
 export class OpenExperiment {
   experiment = $state.raw<Experiment | null>(null);
   /** Changes that another page made before: the page asks which value to keep. */
@@ -16,7 +20,9 @@ export class OpenExperiment {
   /** An invalid value: its path, "video[0].exposure", and the reason. */
   trouble = $state.raw<{ where: string; what: string } | null>(null);
   saving = $state(false);
-  private done = $state.raw<Change[][]>([]);
+  /** Videos that were deleted with their files. */
+  deleted = $state.raw<Deleted[]>([]);
+  private done = $state.raw<Done[]>([]);
   readonly mayUndo = $derived(this.done.length > 0);
 
   constructor(readonly name: string) {}
@@ -25,7 +31,9 @@ export class OpenExperiment {
     return `/api/experiments/${encodeURIComponent(this.name)}`;
   }
   async load() {
-    this.take(await get<Answer>(this.path));
+    const [answer, trash] = await Promise.all([get<Answer>(this.path), get<Deleted[]>('/api/trash')]);
+    this.deleted = trash.filter((d) => d.name.startsWith(`experiments/${this.name}/`));
+    this.take(answer);
   }
   private take(a: Answer) {
     this.experiment = a.experiment;
@@ -67,6 +75,20 @@ export class OpenExperiment {
     const last = this.done.at(-1);
     if (!last) return;
     this.done = this.done.slice(0, -1);
-    await this.change(inverse(last), true);
+    if (typeof last === 'number') await this.restore(last);
+    else await this.change(inverse(last), true);
+  }
+
+  /** Removes a video and moves its file to the trash. Throws RequestError. */
+  async deleteVideo(file: string) {
+    const { id } = await remove<Deleted>(`${this.path}/videos?${new URLSearchParams({ file })}`);
+    this.done = [...this.done, id];
+    await this.load();
+  }
+  /** Restores a deleted video with its file. Throws RequestError. */
+  async restore(id: number) {
+    await post(`/api/trash/${id}/undo`, {});
+    this.done = this.done.filter((d) => d !== id);
+    await this.load();
   }
 }

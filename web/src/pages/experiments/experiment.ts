@@ -26,13 +26,29 @@ export interface Video {
   from?: string | number;
   to?: string | number;
   um_per_px?: number;
+  um_per_px_se?: number;
+  um_per_px_source?: string;
+  segment?: FieldSegment[];
   note?: string;
+}
+/** A field segment; the direction is that in which the cells swim, counter-clockwise from the right. */
+export interface FieldSegment {
+  from?: string | number;
+  to?: string | number;
+  direction?: string | number;
+}
+/** A scale with its standard error and origin, as the experiment or a video states it. */
+export interface Scale {
+  um_per_px: number;
+  um_per_px_se?: number;
+  um_per_px_source?: string;
 }
 export interface Experiment {
   title?: string;
   note?: string;
   objective?: string;
   um_per_px?: number;
+  um_per_px_se?: number;
   um_per_px_source?: string;
   noise?: string;
   drop?: Drop[];
@@ -47,6 +63,38 @@ export interface Change {
 export interface Conflict {
   path: string[];
   now: unknown;
+}
+
+/** The path of a video for the lab: relative to the workspace, or absolute in an allowed folder. */
+export function pathInLab(experiment: string, file: string): string {
+  if (file.startsWith('/')) return file;
+  const out: string[] = [];
+  for (const part of `experiments/${experiment}/${file}`.split('/')) {
+    if (part === '..') out.pop(); // removes "a/.."
+    else if (part !== '.') out.push(part);
+  }
+  return out.join('/');
+}
+
+/** The scale of a video: its own, or that of the experiment. */
+export function scaleOf(e: Experiment, v: Video): Scale | undefined {
+  const of = v.um_per_px === undefined ? e : v;
+  return of.um_per_px === undefined ? undefined : { um_per_px: of.um_per_px, um_per_px_se: of.um_per_px_se, um_per_px_source: of.um_per_px_source };
+}
+/** The changes that set a scale at a path, [] or ["video", file], or remove it. */
+export const scaleChanges = (path: string[], scale: Partial<Scale>): Change[] =>
+  (['um_per_px', 'um_per_px_se', 'um_per_px_source'] as const).map((key) => ({ path: [...path, key], to: scale[key] }));
+/** "0.64 ± 0.01 µm/px"; the value is rounded to the second digit of its standard error. */
+export function scaleText({ um_per_px, um_per_px_se }: Scale): string {
+  if (!um_per_px_se) return `${Number(um_per_px.toPrecision(4))} µm/px`;
+  const digits = Math.min(Math.max(1 - Math.floor(Math.log10(um_per_px_se)), 0), 9);
+  return `${um_per_px.toFixed(digits)} ± ${um_per_px_se.toFixed(digits)} µm/px`;
+}
+/** The largest relative standard error of the scales of videos, rounded; undefined if none is known. */
+export function scaleUncertainty(e: Experiment): number | undefined {
+  const scales = (e.video ?? []).map((v) => scaleOf(e, v)).filter((s) => s?.um_per_px_se);
+  const most = Math.max(0, ...scales.map((s) => s!.um_per_px_se! / s!.um_per_px));
+  return most > 0 ? Number(most.toPrecision(3)) : undefined;
 }
 
 const kIdentity: Record<string, string> = { drop: 'name', video: 'file' };
@@ -84,7 +132,7 @@ export function swimmingDirection(e: Experiment, v: Video): number | undefined {
  * "to = 3 s is not later than from = 4 s", starts with one of them. Null for other errors.
  */
 export function refusalOf({ where, what }: { where: string; what: string }): { list: string; index: number; key: string } | null {
-  const item = /^(drop|video)\[(\d+)\](?:\.(\w+))?$/.exec(where), key = item?.[3] ?? /^(\w+) = /.exec(what)?.[1];
+  const item = /^(drop|video)\[(\d+)\](?:\.(\w+).*)?$/.exec(where), key = item?.[3] ?? /^(\w+) = /.exec(what)?.[1];
   return item && key ? { list: item[1], index: Number(item[2]), key } : null;
 }
 
