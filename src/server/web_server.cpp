@@ -211,7 +211,7 @@ class Connection final : public std::enable_shared_from_this<Connection> {
                                      WebServer::kMostUploads));
     std::error_code unknown;
     const auto space = std::filesystem::space(server_.uploads, unknown);
-    // Uploads that have begun may still need all the space for which they were accepted.
+    // Uploads in progress may still need all the space for which they were accepted.
     if (!unknown && space.available < kSpare + server_.expected + *length)
       return refuse(507, fmt::format("the upload needs {:.1f} MB, but only {:.1f} MB are free for temporary "
                                      "files; delete files or set TMPDIR to a folder on another disk",

@@ -148,7 +148,7 @@ await step('the viewer is scrubbed', async () => {
   await key('Home');
   const first = await at();
   await key('ArrowRight', 'ArrowRight', 'ArrowRight');
-  await until(async () => (await at()) > first, 'the viewer goes on by keys');
+  await until(async () => (await at()) > first, 'the viewer moves by keys');
   await key('End');
   await until(async () => (await at()) > first + 0.5, 'the viewer goes to the end');
 });

@@ -28,7 +28,7 @@ std::string bytes_of(const Served& lab) { return lab.own() + "Content-Type: appl
 Json json_of(const std::string& answer) { return Json::parse(test::body_of(answer)); }
 
 /// A client that begins an upload and sends a part of it.
-std::unique_ptr<RawClient> begun(const Served& lab, std::size_t length) {
+std::unique_ptr<RawClient> started(const Served& lab, std::size_t length) {
   auto c = std::make_unique<RawClient>(lab.port);
   c->send(fmt::format("POST /api/upload?name=a.pgm HTTP/1.1\r\n{}Content-Length: {}\r\n\r\nP5", bytes_of(lab),
                       length));
@@ -49,7 +49,7 @@ int upload_until(const Served& lab, int wanted) {
 TEST_CASE("S7: only some uploads at the same time; one that was interrupted makes room") {
   const Served lab;
   std::vector<std::unique_ptr<RawClient>> slow;
-  for (std::size_t k = 0; k < WebServer::kMostUploads; ++k) slow.push_back(begun(lab, 1000));
+  for (std::size_t k = 0; k < WebServer::kMostUploads; ++k) slow.push_back(started(lab, 1000));
   CHECK(upload_until(lab, 429) == 429);
   CHECK(status_of(lab.get("/api/about")) == 200);
   slow.pop_back();
@@ -76,7 +76,7 @@ TEST_CASE("S7: an upload without a length, or with one that is too large, is ref
 
 TEST_CASE("S7: an upload that sends a byte now and then ends") {
   const Served lab;
-  const auto slow = begun(lab, 1 << 20);
+  const auto slow = started(lab, 1 << 20);
   const auto began = std::chrono::steady_clock::now();
   while (std::chrono::steady_clock::now() - began < std::chrono::seconds(40) && slow->send("x"))
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
