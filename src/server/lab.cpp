@@ -13,6 +13,8 @@
 #include "server/access.h"
 #include "server/api/api.h"
 #include "server/experiments/experiment_store.h"
+#include "server/jobs/job_words.h"
+#include "server/json_text.h"
 #include "server/live_lab.h"
 #include "server/page_message.h"
 #include "server/web_server.h"
@@ -26,7 +28,7 @@ namespace fs = std::filesystem;
 class PrivateFolder {
  public:
   PrivateFolder() {
-    std::string name = (fs::temp_directory_path() / "faba-lab-XXXXXX").string();
+    std::string name = (fs::canonical(fs::temp_directory_path()) / "faba-lab-XXXXXX").string();
     if (!::mkdtemp(name.data())) throw Error(Errc::internal, name, "cannot create this folder");
     path_ = name;
   }
@@ -61,11 +63,11 @@ class Pages {
       if (steering_ == 0) steering_ = s->id();
     }
     s->send_text(
-        Json{{"say", "hello"}, {"version", FABA_VERSION}, {"protocol", 1}, {"page", s->id()}}.dump());
+        json_text({{"say", "hello"}, {"version", FABA_VERSION}, {"protocol", 1}, {"page", s->id()}}));
     broadcast_pages();
     s->send_text(jobs_message());
     lab_.watch(s->id(), {[s](std::shared_ptr<const std::string> bytes) { s->send_frame(std::move(bytes)); },
-                         [s](const Json& j) { s->send_text(j.dump()); }});
+                         [s](const Json& j) { s->send_text(json_text(j)); }});
   }
   void closed(const PageSocketRef& s) {
     lab_.leave(s->id());
@@ -84,20 +86,21 @@ class Pages {
         throw Error(Errc::usage, "steer", "another page is steering; take control first");
       carry_out(m, s);
     } catch (const Error& e) {
-      s->send_text(Json{
-          {"id", m.id ? m.id : message_id(text)}, {"ok", false}, {"where", e.where()}, {"what", e.reason()}}
-                       .dump());
+      s->send_text(json_text({{"id", m.id ? m.id : message_id(text)},
+                              {"ok", false},
+                              {"where", e.where()},
+                              {"what", e.reason()}}));
     }
   }
   void jobs_changed() { broadcast(jobs_message()); }
-  void tell(const Json& news) { broadcast(news.dump()); }
+  void tell(const Json& news) { broadcast(json_text(news)); }
 
  private:
   void carry_out(const PageMessage& m, const PageSocketRef& s) {
     const LiveLab::Done done = [this, s, id = m.id](Json answer) {
       answer["id"] = id;
       if (answer.contains("where")) answer["where"] = workspace_.in_page(answer["where"]);
-      s->send_text(answer.dump());
+      s->send_text(json_text(answer));
     };
     using Do = PageMessage::Do;
     switch (m.what) {
@@ -188,7 +191,7 @@ class Pages {
   std::string jobs_message() const {
     Json all = Json::array();
     for (const Job& j : jobs_.jobs()) all.push_back(job_json(j));
-    return Json{{"say", "jobs"}, {"jobs", all}}.dump();
+    return json_text({{"say", "jobs"}, {"jobs", all}});
   }
   void broadcast(const std::string& text) {
     const std::lock_guard lock(mutex_);
@@ -200,7 +203,7 @@ class Pages {
       const std::lock_guard lock(mutex_);
       j = {{"say", "pages"}, {"pages", sockets_.size()}, {"steering", steering_}};
     }
-    broadcast(j.dump());
+    broadcast(json_text(j));
   }
 
   LiveLab& lab_;
@@ -223,10 +226,13 @@ void serve_lab(const LabOptions& o) {
   LiveLab live(threads);
   Pages* pages = nullptr;
   std::mutex wiring;  // jobs may change before `pages` exists
-  JobList jobs(o.program, workspace.root(), [&] {
-    const std::lock_guard lock(wiring);
-    if (pages) pages->jobs_changed();
-  });
+  JobList jobs(
+      o.program, workspace.root(),
+      [&] {
+        const std::lock_guard lock(wiring);
+        if (pages) pages->jobs_changed();
+      },
+      [&](const Job& job) { check_job(job, workspace); });
   Pages watchers(live, jobs, workspace);
   {
     const std::lock_guard lock(wiring);

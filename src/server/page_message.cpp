@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/json_input.h"
 
 namespace faba {
 namespace {
@@ -25,19 +26,14 @@ constexpr std::array<std::pair<const char*, PageMessage::Do>, 11> kWords = {{
     {"ping", PageMessage::Do::ping},
 }};
 constexpr double kMostSites = 4096;  // more than the pixels of a screen
-constexpr int kDeepest = 32;         // scenarios have five levels
 constexpr double kLongestRun = 1e6;  // s
 constexpr std::uint64_t kMostSeed = 1ull << 53;
 
 Error bad(const std::string& where, const std::string& what) { return {Errc::usage, where, what}; }
 
-// Limits the nesting depth, because documents are processed recursively.
 Json parse(std::string_view text) {
-  const auto deep = [](int depth, Json::parse_event_t, Json&) {
-    if (depth > kDeepest) throw bad("invalid message", "nesting is too deep");
-    return true;
-  };
-  Json j = Json::parse(text, deep, false);
+  Json j = parse_json(text);
+  if (j.is_discarded()) throw bad("invalid message", "not valid JSON, or its nesting is too deep");
   if (!j.is_object()) throw bad("invalid message", "not a JSON object");
   return j;
 }

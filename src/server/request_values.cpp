@@ -8,12 +8,14 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "core/json_input.h"
 
 namespace faba {
 
 Json body_of(const WebRequest& r) {
-  Json j = Json::parse(r.body, nullptr, false);
-  if (!j.is_object()) throw Error(Errc::usage, "invalid request", "not a JSON object");
+  Json j = parse_json(r.body);
+  if (!j.is_object())
+    throw Error(Errc::usage, "invalid request", "not a JSON object, or its nesting is too deep");
   return j;
 }
 

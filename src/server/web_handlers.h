@@ -27,9 +27,9 @@ struct WebResponse {
   int status = 200;
   std::string type = "application/json";
   std::string body;
-  std::filesystem::path file = {};  ///< if not empty, its content is the body; supports range requests
+  std::filesystem::path file = {};  ///< if not empty, its content is the body, with range requests; no links
   bool keep = false;                ///< may be cached for an hour
-  bool report = false;              ///< a report written by the program: inline style, no script
+  bool report = false;              ///< a file of the user, such as a report: inline style, no script
 };
 
 /// A connected page. Thread-safe; messages to a disconnected page are discarded.

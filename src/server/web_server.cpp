@@ -11,11 +11,11 @@
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <chrono>
-#include <fstream>
 #include <limits>
 #include <optional>
 
 #include "core/error.h"
+#include "core/opened_path.h"
 #include "server/page_socket.h"
 #include "server/web_request.h"
 
@@ -30,6 +30,8 @@ namespace {
 
 constexpr std::size_t kMostHeader = 16u << 10;
 constexpr auto kRequestTimeout = std::chrono::seconds(30);  // timeout of a request and of a response
+constexpr std::uint64_t kLeastRate = 16u << 10;             // bytes/s, mean of an upload
+constexpr std::uint64_t kSpare = 256u << 20;                // bytes that uploads leave on the disk
 constexpr std::uint64_t kMostOfRange = 8u << 20;            // maximum size of a range response
 
 // Only scripts and resources of this server.
@@ -37,7 +39,7 @@ constexpr const char* kPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; media-src 'self' "
     "blob:; connect-src 'self'; font-src 'self'; frame-src 'self'; manifest-src 'self'; base-uri 'none'; "
     "form-action 'none'; frame-ancestors 'self'";
-// Reports written by the program: inline style, no script.
+// Files of the user, such as reports: inline style, no script.
 constexpr const char* kReportPolicy =
     "default-src 'none'; style-src 'unsafe-inline'; img-src 'self' data:; media-src 'self' data:; base-uri "
     "'none'; form-action 'none'; frame-ancestors 'self'";
@@ -85,6 +87,8 @@ struct WebServer::Impl {
   std::filesystem::path uploads;
   const Access* access = nullptr;
   WebHandlers handlers;
+  std::atomic<std::size_t> coming = 0;       // uploads
+  std::atomic<std::uint64_t> expected = 0;   // bytes of these uploads
   std::atomic<std::size_t> connections = 0;  // atomic: the last reference may be released by a worker thread
   std::uint64_t next_page = 1;
   // Declared last: pending connections use the members above until io is destroyed.
@@ -93,6 +97,33 @@ struct WebServer::Impl {
   asio::thread_pool workers{2};
 
   void accept();
+};
+
+/// The file of an upload, which is removed at the end of the request.
+struct Upload {
+  Upload(WebServer::Impl& s, std::uint64_t bytes, const std::string& name)
+      : server(s), length(bytes), file(s.uploads / name) {
+    ++server.coming;
+    server.expected += length;
+  }
+  ~Upload() {
+    std::error_code ignored;
+    std::filesystem::remove(file, ignored);
+    server.expected -= length;
+    --server.coming;
+  }
+  Upload(const Upload&) = delete;
+  Upload& operator=(const Upload&) = delete;
+  /// Until the mean rate is below the minimum.
+  std::chrono::nanoseconds time_left(std::uint64_t received) const {
+    const auto needed = std::chrono::seconds(std::int64_t(received / kLeastRate));
+    return began + kRequestTimeout + needed - std::chrono::steady_clock::now();
+  }
+
+  WebServer::Impl& server;
+  std::uint64_t length;  ///< bytes
+  std::filesystem::path file;
+  std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
 };
 
 /// A connection of a client: a sequence of requests, or the handshake of a WebSocket.
@@ -170,48 +201,59 @@ class Connection final : public std::enable_shared_from_this<Connection> {
 
   void take_file() {
     static std::atomic<unsigned> number{0};
-    const auto file = server_.uploads / fmt::format("upload-{}-{}.part", ::getpid(), ++number);
     auto parser = std::make_shared<http::request_parser<http::file_body>>(std::move(*head_));
     parser->body_limit(WebServer::kMostUpload);
-    if (parser->content_length() && *parser->content_length() > WebServer::kMostUpload)
-      return refuse(413, "request body is too large");
+    const auto length = parser->content_length();
+    if (!length) return refuse(411, "the length of the upload is missing; send Content-Length");
+    if (*length > WebServer::kMostUpload) return refuse(413, "request body is too large");
+    if (server_.coming >= WebServer::kMostUploads)
+      return refuse(429, fmt::format("{} uploads are in progress, the maximum; try again when one has ended",
+                                     WebServer::kMostUploads));
+    std::error_code unknown;
+    const auto space = std::filesystem::space(server_.uploads, unknown);
+    // Uploads in progress may still need all the space for which they were accepted.
+    if (!unknown && space.available < kSpare + server_.expected + *length)
+      return refuse(507, fmt::format("the upload needs {:.1f} MB, but only {:.1f} MB are free for temporary "
+                                     "files; delete files or set TMPDIR to a folder on another disk",
+                                     double(*length) / 1e6, double(space.available) / 1e6));
+    auto upload =
+        std::make_shared<Upload>(server_, *length, fmt::format("upload-{}-{}.part", ::getpid(), ++number));
     beast::error_code ec;
-    parser->get().body().open(file.c_str(), beast::file_mode::write, ec);
+    parser->get().body().open(upload->file.c_str(), beast::file_mode::write, ec);
     if (ec) return refuse(500, "cannot store the upload: " + ec.message());
-    take_more(parser, file);
+    take_more(parser, upload);
   }
   // Reads in parts, so that the timeout restarts with every part.
   void take_more(const std::shared_ptr<http::request_parser<http::file_body>>& parser,
-                 const std::filesystem::path& file) {
-    if (parser->is_done()) return answer({}, file, parser->get().base());  // empty body
-    stream_.expires_after(kRequestTimeout);
+                 const std::shared_ptr<Upload>& upload) {
+    if (parser->is_done()) return answer({}, upload, parser->get().base());  // empty body
+    const auto left = upload->time_left(*parser->content_length() - *parser->content_length_remaining());
+    if (left <= std::chrono::seconds(0)) return refuse(408, "the upload is too slow");
+    stream_.expires_after(std::min<std::chrono::nanoseconds>(kRequestTimeout, left));
     http::async_read_some(stream_, buffer_, *parser,
-                          [self = shared_from_this(), parser, file](beast::error_code ec, std::size_t) {
-                            if (!ec && !parser->is_done()) return self->take_more(parser, file);
+                          [self = shared_from_this(), parser, upload](beast::error_code ec, std::size_t) {
+                            if (!ec && !parser->is_done()) return self->take_more(parser, upload);
                             parser->get().body().close();
-                            if (!ec) return self->answer({}, file, parser->get().base());
-                            std::error_code ignored;
-                            std::filesystem::remove(file, ignored);
+                            if (!ec) return self->answer({}, upload, parser->get().base());
                             if (ec == http::error::body_limit)
                               return self->refuse(413, "request body is too large");
                             self->close();
                           });
   }
 
-  void answer(std::string body, const std::filesystem::path& upload, const Header& header) {
+  void answer(std::string body, const std::shared_ptr<Upload>& upload, const Header& header) {
     auto request = std::make_shared<WebRequest>();
     request->method = std::string(header.method_string());
     request->path = target_->path;
     request->query = target_->query;
     request->query.erase("token");
     request->body = std::move(body);
-    request->upload = upload;
+    if (upload) request->upload = upload->file;
     const std::string range(header[http::field::range]);
     stream_.expires_never();  // no timeout while the handler runs
-    asio::post(server_.workers, [self = shared_from_this(), request, range] {
+    asio::post(server_.workers, [self = shared_from_this(), request, range, kept = upload]() mutable {
       auto response = std::make_shared<WebResponse>(self->server_.handlers.answer(*request));
-      std::error_code ignored;
-      if (!request->upload.empty()) std::filesystem::remove(request->upload, ignored);
+      kept.reset();  // removes the file
       asio::post(self->stream_.get_executor(), [self, request, response, range] {
         self->deliver(*response, range, request->method == "HEAD");
       });
@@ -232,7 +274,13 @@ class Connection final : public std::enable_shared_from_this<Connection> {
   void deliver_file(const WebResponse& w, const std::string& range, bool head_only) {
     beast::error_code ec;
     http::file_body::value_type file;
-    file.open(w.file.c_str(), beast::file_mode::scan, ec);
+    try {
+      const OpenedPath opened(w.file);
+      if (!opened.is_regular_file()) return refuse(404, "is not a file");
+      file.open(opened.path().c_str(), beast::file_mode::scan, ec);
+    } catch (const Error&) {
+      return refuse(404, "file not found");
+    }
     if (ec) return refuse(404, "cannot read the file");
     const auto part = parse_range(range, file.size());
     if (!part) {
@@ -247,11 +295,15 @@ class Connection final : public std::enable_shared_from_this<Connection> {
     set_headers(*r, w.type, w.keep, w.report);
     r->set(http::field::accept_ranges, "bytes");
     r->set(http::field::content_range, fmt::format("bytes {}-{}/{}", part->begin, end - 1, file.size()));
-    std::ifstream in(w.file, std::ios::binary);
     r->body().resize(std::size_t(end - part->begin));
-    in.seekg(std::streamoff(part->begin));
-    in.read(r->body().data(), std::streamsize(r->body().size()));
-    if (!in) return refuse(404, "cannot read the file");
+    file.file().seek(part->begin, ec);
+    std::size_t read = 0;
+    while (!ec && read < r->body().size()) {
+      const std::size_t n = file.file().read(r->body().data() + read, r->body().size() - read, ec);
+      if (n == 0) break;
+      read += n;
+    }
+    if (ec || read < r->body().size()) return refuse(404, "cannot read the file");
     send(r, head_only);
   }
 

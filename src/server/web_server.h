@@ -14,6 +14,7 @@ class WebServer {
  public:
   static constexpr std::size_t kMostBody = 4u << 20;
   static constexpr std::uint64_t kMostUpload = 2ull << 30;
+  static constexpr std::size_t kMostUploads = 8;  ///< at the same time
   static constexpr std::size_t kMostConnections = 64;
 
   /// Binds 127.0.0.1; port 0: any free port. Throws Error(usage) if the port is in use. `uploads`: an
@@ -28,6 +29,7 @@ class WebServer {
 
  private:
   friend class Connection;
+  friend struct Upload;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -11,6 +11,7 @@
 #include "server/file_kinds.h"
 #include "server/gallery_index.h"
 #include "study/data/run_video.h"
+#include "study/experiment/experiment.h"
 
 namespace faba {
 namespace {
@@ -98,7 +99,18 @@ fs::path Workspace::existing(std::string_view name) const {
   fs::path path = absolute ? fs::weakly_canonical(name, ec) : inside(name);
   if (!fs::is_regular_file(path, ec) && !fs::is_directory(path, ec))
     throw Error(Errc::input, std::string(name), "file not found in the folder in which the lab was started");
+  if (fs::exists(path / run_files::kManifest, ec) || experiment_file(path)) check_links(path);
   return path;
+}
+
+void Workspace::check_links(const fs::path& folder) const {
+  std::error_code ec;
+  for (const auto& e : fs::directory_iterator(folder, ec))
+    if (e.is_symlink(ec) && !may_read(e.path()))
+      throw Error(
+          Errc::usage, name_of(folder) + "/" + e.path().filename().string(),
+          "is a link to a place outside of the folder in which the lab was started; remove the link, or "
+          "use faba lab --allow FOLDER");
 }
 
 Document Workspace::page_document(Json scenario) const {

@@ -24,8 +24,11 @@ class Workspace {
   /// workspace, also through links, and for hidden files.
   std::filesystem::path inside(std::string_view name) const;
   /// The same for an existing file or folder; otherwise throws Error(input). The name may be an absolute path
-  /// in an allowed folder.
+  /// in an allowed folder. Runs and experiments are checked by check_links().
   std::filesystem::path existing(std::string_view name) const;
+  /// Throws Error(usage) if a file in a folder is a link to a place that pages may not read: what the program
+  /// reads of a run or an experiment has a fixed name, so a link is followed.
+  void check_links(const std::filesystem::path& folder) const;
   /// Whether pages may read a file: it is in the workspace or in an allowed folder, also after its links are
   /// followed. It need not exist.
   bool may_read(const std::filesystem::path& file) const;

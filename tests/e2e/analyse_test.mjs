@@ -107,6 +107,18 @@ await step('the estimate of a second job is measured, and the values of one form
   await page.locator('[data-read=estimate]', { hasText: 'from earlier jobs' }).waitFor();
 });
 
+await step('activity of south-seeking cells: the direction is that of the cells, and the signal is positive', async () => {
+  // The field of this run points to the left after the reversal: the cells swim against it, to the right.
+  await open('activity');
+  await pick(/^Videos/, 'runs/seen');
+  assert.equal(await page.getByRole('textbox', { name: /direction of the field/i }).count(), 0, 'the form asks for the field');
+  await page.getByRole('textbox', { name: 'Swimming direction after the reversal' }).fill('0');
+  const id = await start();
+  await done();
+  const [video] = (await page.evaluate((n) => fetch(`/api/jobs/${n}`).then((r) => r.json()), id)).result.videos;
+  assert.ok(video.signal_to_noise > 1 && video.mean_along > 0, `signal-to-noise ratio ${video.signal_to_noise}, motion along the direction ${video.mean_along}`);
+});
+
 await step('compare: reference and videos are chosen separately', async () => {
   await open('compare');
   await pick(/^Reference video/, 'runs/seen');

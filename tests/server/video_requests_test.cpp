@@ -235,6 +235,23 @@ TEST_CASE("a video that has changed is opened again, and several threads may rea
   CHECK(wrong == 0);
 }
 
+TEST_CASE("the scale of a picture is found in the OME-XML file beside it") {
+  VideoLab lab;
+  // A TIFF of one pixel without a description.
+  const std::string tiff(
+      "II*\0\x08\0\0\0\x07\0"
+      "\0\x01\x03\0\x01\0\0\0\x01\0\0\0\x01\x01\x03\0\x01\0\0\0\x01\0\0\0"
+      "\x02\x01\x03\0\x01\0\0\0\x08\0\0\0\x06\x01\x03\0\x01\0\0\0\x01\0\0\0"
+      "\x11\x01\x04\0\x01\0\0\0\x62\0\0\0\x16\x01\x03\0\x01\0\0\0\x01\0\0\0"
+      "\x17\x01\x04\0\x01\0\0\0\x01\0\0\0\0\0\0\0x",
+      99);
+  write_file(lab.path() / "c.tif", tiff);
+  write_file(lab.path() / "c.companion.ome", "<OME><Pixels PhysicalSizeX='0.4' TimeIncrement='0.5'/></OME>");
+  const Json about = lab.json("about", {{"file", "c.tif"}});
+  INFO(about.dump());
+  CHECK(about["um_per_px"] == 0.4);
+}
+
 TEST_CASE("only some videos stay open") {
   VideoLab lab;
   OpenVideos videos;

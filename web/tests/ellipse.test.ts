@@ -1,5 +1,8 @@
 import { describe, expect, test } from 'vitest';
+import type { Frame } from '../src/frame';
+import { Camera } from '../src/view/camera';
 import { correlation, ellipseOf } from '../src/view/ellipse';
+import { Overlay, type Layers, type Palette, type Scene } from '../src/view/overlay';
 
 /** A cloud with normal coordinates along two axes, `a` and `b` long, the first at an angle; deterministic. */
 function cloud(n: number, a: number, b: number, angle: number): Float32Array {
@@ -64,4 +67,18 @@ describe('the correlation', () => {
     expect(correlation({ xy: new Float32Array([3, 4]), cells: 1 })).toBe(0);
     expect(correlation({ xy: new Float32Array([3, 4, 5, 4]), cells: 2 })).toBe(0);
   });
+});
+
+test('the overlay draws the ellipse along the cloud of the cells, not along the axes of the picture', () => {
+  const angle = 0.6, n = 20000, xy = cloud(n, 40, 10, angle), drawn: number[][] = [];
+  const canvas = new Proxy({} as Record<string, unknown>, { get: (_, name) => (name === 'ellipse' ? (...a: number[]) => drawn.push(a) : () => undefined), set: () => true });
+  const camera = new Camera();
+  camera.scale = 2;
+  const marks = { centroid: [300, 200] as [number, number], sigma: sigmas(xy), setpoint: null, asked: null, sketch: [] };
+  new Overlay(canvas as unknown as CanvasRenderingContext2D, () => '').draw({} as Scene, { xy, cells: n } as Frame, camera, { swarm: true } as Layers, marks, {} as Palette, 1, true);
+  expect(drawn).toHaveLength(1);
+  const [, , major, minor, rotation] = drawn[0];
+  expect(rotation).toBeCloseTo(angle, 1);
+  expect(major / (2 * 40)).toBeCloseTo(1, 1);
+  expect(minor / (2 * 10)).toBeCloseTo(1, 1);
 });

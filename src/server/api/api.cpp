@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "server/api/responses.h"
 #include "server/embedded_page.h"
+#include "server/json_text.h"
 
 namespace faba {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 
 WebResponse failure(int status, const Error& e) {
-  return {.status = status, .body = Json{{"ok", false}, {"where", e.where()}, {"what", e.reason()}}.dump()};
+  return {.status = status, .body = json_text({{"ok", false}, {"where", e.where()}, {"what", e.reason()}})};
 }
 
 }  // namespace
@@ -64,7 +65,7 @@ WebResponse Api::page_file(const std::string& name) const {
   if (!pages_.empty()) {
     const fs::path file = pages_ / fs::path(name).filename();
     if (!fs::is_regular_file(file)) throw Error(Errc::input, name, "not found");
-    return file_answer(file);
+    return file_answer(fs::canonical(file));
   }
   const auto content = embedded_page(name);
   if (!content) throw Error(Errc::input, name, "not found");

@@ -72,7 +72,7 @@ Json start_job(const LabServices& lab, const Json& body) {
   } catch (const std::exception&) {
     job.work = 0;  // the job reports what is wrong with the file
   }
-  fs::create_directories(lab.workspace.root() / out);
+  fs::create_directories(lab.workspace.inside(out.string()));
   return {{"id", lab.jobs.add(std::move(job))}};
 }
 

@@ -2,12 +2,11 @@
 
 #include <map>
 
+#include "server/json_text.h"
+
 namespace faba {
 
-// Names of files need not be UTF-8.
-WebResponse json_answer(const Json& j) {
-  return {.body = j.dump(-1, ' ', false, Json::error_handler_t::replace)};
-}
+WebResponse json_answer(const Json& j) { return {.body = json_text(j)}; }
 
 WebResponse file_answer(const std::filesystem::path& file) {
   return {.type = content_type(file), .body = {}, .file = file};
@@ -15,7 +14,10 @@ WebResponse file_answer(const std::filesystem::path& file) {
 
 WebResponse output_answer(const std::filesystem::path& file) {
   WebResponse answer = file_answer(file);
-  answer.report = file.extension() == ".html";
+  answer.report = true;
+  // The page runs scripts of this server; those of the user's files are not among them.
+  const std::string extension = file.extension().string();
+  if (extension == ".js" || extension == ".css") answer.type = "text/plain; charset=utf-8";
   return answer;
 }
 

@@ -9,7 +9,7 @@ namespace faba {
 WebResponse json_answer(const Json& j);
 /// A file with the content type of its extension.
 WebResponse file_answer(const std::filesystem::path& file);
-/// An output of the program; a page is shown with the rules of a report, see WebResponse.
+/// A file of the user or an output of the program: it runs no script, see WebResponse.
 WebResponse output_answer(const std::filesystem::path& file);
 /// A picture that the lab has rendered under a name that changes with its content.
 WebResponse picture_answer(const std::filesystem::path& file);

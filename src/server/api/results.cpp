@@ -7,6 +7,7 @@
 #include "app/scenario/scenario.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/json_input.h"
 #include "core/toml.h"
 #include "server/api/lab_services.h"
 #include "server/api/responses.h"
@@ -63,7 +64,7 @@ Json files_of(const LabServices& lab, const fs::path& page) {
 std::string video_of(const LabServices& lab, const fs::path& page) {
   const fs::path file = page.parent_path() / "identify.json";
   if (!fs::is_regular_file(file)) return {};
-  const Json result = Json::parse(read_file(file), nullptr, false);
+  const Json result = parse_json(read_file(file));
   if (!result.is_object()) return {};
   const Json inputs = result.value("/provenance/inputs"_json_pointer, Json::array());
   for (std::size_t i = 1; i < inputs.size(); ++i) {  // the first is the study

@@ -5,6 +5,8 @@
 #include <atomic>
 
 #include "core/error.h"
+#include "core/file.h"
+#include "server/opened_input.h"
 #include "study/pages/scale_report.h"
 
 namespace faba {
@@ -38,10 +40,12 @@ Json measure_ruler(const LabServices& lab, const fs::path& picture, double tick_
   j["url"] = "/api/uploads/" + shown;
   if (quality_of(scale.warnings) == Quality::poor) return j;  // displayed, but not saved
   fs::create_directories(kept.parent_path());
-  fs::copy_file(picture, kept, fs::copy_options::overwrite_existing);
   Calibration c = calibration_of(scale);
   c.source = kept.filename().string();
-  write_calibration(file, c);
+  with_opened(kept.parent_path(), name, [&](const fs::path& folder) {
+    write_file(folder / kept.filename(), read_file(picture));
+    write_calibration(folder / file.filename(), c);
+  });
   j["file"] = name + ".toml";
   return j;
 }

@@ -9,6 +9,7 @@
 #include "core/file.h"
 #include "server/api/lab_services.h"
 #include "server/api/responses.h"
+#include "server/opened_input.h"
 #include "server/recorded_run.h"
 #include "server/request_values.h"
 #include "study/pages/thumbnail.h"
@@ -56,21 +57,26 @@ void add_changes(Routes& routes, const LabServices& lab) {
 }  // namespace
 
 void add_run_routes(Routes& routes, const LabServices& lab) {
-  const auto dir = [&lab](const std::string& name) { return lab.workspace.existing("runs/" + name); };
+  // Calls a function with the folder of a run.
+  const auto with = [&lab](const std::string& name, const auto& use) {
+    return with_opened(lab.workspace.existing("runs/" + name), "runs/" + name, use);
+  };
   routes.add("GET", "/api/runs", [&lab](const auto&, const auto&) { return json_answer(lab.runs.list()); });
   add_changes(routes, lab);
   routes.add("GET", "/api/runs/*/about",
-             [dir](const auto&, const auto& names) { return json_answer(describe_run(dir(names[0]))); });
-  routes.add("GET", "/api/runs/*/scenario", [&lab, dir](const auto&, const auto& names) {
-    return json_answer(scenario_of(lab, names[0], dir(names[0])));
+             [with](const auto&, const auto& names) { return json_answer(with(names[0], describe_run)); });
+  routes.add("GET", "/api/runs/*/scenario", [&lab, with](const auto&, const auto& names) {
+    return json_answer(with(names[0], [&](const fs::path& dir) { return scenario_of(lab, names[0], dir); }));
   });
-  routes.add("GET", "/api/runs/*/frames", [dir](const auto& r, const auto& names) {
-    return WebResponse{
-        .type = "application/octet-stream",
-        .body = run_frames(dir(names[0]), query_count(r, "from", 0), query_count(r, "count", 1))};
+  routes.add("GET", "/api/runs/*/frames", [with](const auto& r, const auto& names) {
+    return WebResponse{.type = "application/octet-stream", .body = with(names[0], [&](const fs::path& dir) {
+                                                             return run_frames(dir, query_count(r, "from", 0),
+                                                                               query_count(r, "count", 1));
+                                                           })};
   });
-  routes.add("GET", "/api/runs/*/picture.png",
-             [&lab, dir](const auto&, const auto& names) { return picture(lab, names[0], dir(names[0])); });
+  routes.add("GET", "/api/runs/*/picture.png", [&lab, with](const auto&, const auto& names) {
+    return with(names[0], [&](const fs::path& dir) { return picture(lab, names[0], dir); });
+  });
   for (const char* pattern : {"/api/runs/**", "/runs/**"})
     routes.add("GET", pattern, [&lab](const auto&, const auto& names) { return output(lab, names[0]); });
 }

@@ -10,6 +10,7 @@
 #include "server/api/responses.h"
 #include "server/api/rulers.h"
 #include "server/experiments/experiment_store.h"
+#include "server/opened_input.h"
 #include "server/request_values.h"
 #include "study/data/run_video.h"
 #include "study/pages/drop_report.h"
@@ -92,9 +93,12 @@ Json detect(const LabServices& lab, const Json& asked) {
   const std::string name = text_of(asked, "file");
   const fs::path file = run_video(lab.workspace.existing(name)).file;
   return under_name(name, file, [&] {
-    Json j = detected_drop(lab, file, name);
-    j["file"] = name;
-    return j;
+    // The folder, because metadata may be in a file beside the picture.
+    return with_opened(file.parent_path(), name, [&](const fs::path& folder) {
+      Json j = detected_drop(lab, folder / file.filename(), name);
+      j["file"] = name;
+      return j;
+    });
   });
 }
 
@@ -121,8 +125,21 @@ WebResponse shown_picture(const LabServices& lab, const WebRequest& r) {
   if (ec) throw Error(Errc::input, name, "file not found");
   const fs::path png =
       lab.pictures / fmt::format("file-{:x}-{}.png", std::hash<std::string>()(file.string()), changed);
-  if (!fs::exists(png)) under_name(name, file, [&] { write_displayed_picture(file, png); });
+  if (!fs::exists(png))
+    under_name(name, file, [&] {
+      with_opened(file.parent_path(), name,
+                  [&](const fs::path& folder) { write_displayed_picture(folder / file.filename(), png); });
+    });
   return picture_answer(png);
+}
+
+// The pictures that the lab has rendered; not the uploaded files, nor the file that opens the browser.
+WebResponse shown_upload(const LabServices& lab, const std::string& name) {
+  const fs::path file = lab.pictures / name;
+  const bool rendered = name.starts_with("shown-") || name.starts_with("ruler-");
+  if (!rendered || file.extension() != ".png" || !fs::is_regular_file(file))
+    throw Error(Errc::input, name, "file not found");
+  return file_answer(file);
 }
 
 }  // namespace
@@ -132,11 +149,8 @@ void add_upload_routes(Routes& routes, const LabServices& lab) {
              [&lab](const auto& r, const auto&) { return json_answer(take_upload(lab, r)); });
   routes.add("POST", "/api/upload/ruler",
              [&lab](const auto& r, const auto&) { return json_answer(take_ruler(lab, r)); });
-  routes.add("GET", "/api/uploads/*", [&lab](const auto&, const auto& names) {
-    const fs::path file = lab.pictures / names[0];
-    if (!fs::exists(file)) throw Error(Errc::input, names[0], "file not found");
-    return file_answer(file);
-  });
+  routes.add("GET", "/api/uploads/*",
+             [&lab](const auto&, const auto& names) { return shown_upload(lab, names[0]); });
   routes.add("GET", "/api/pictures",
              [&lab](const auto&, const auto&) { return json_answer(lab.workspace.pictures()); });
   routes.add("POST", "/api/pictures/detect",

@@ -11,6 +11,7 @@
 #include "server/request_values.h"
 #include "server/videos/open_videos.h"
 #include "study/data/frame_flow.h"
+#include "study/data/run_video.h"
 #include "study/drop/proposed_drop.h"
 #include "study/pages/drop_report.h"
 
@@ -38,8 +39,13 @@ void with_video(OpenVideos& videos, const LabServices& lab, const WebRequest& r,
   if (name.empty())
     throw Error(Errc::usage, "file", "is missing; it must be the name of a video of the workspace");
   const fs::path path = lab.workspace.existing(name);
+  const auto find = [&] {
+    RunVideo video = run_video(path);
+    video.file = lab.workspace.existing(video.file.string());
+    return video;
+  };
   try {
-    videos.with(path, use);
+    videos.with(path, use, find);
   } catch (const Error& e) {
     if (!e.where().starts_with(path.string())) throw;
     throw Error(e.code(), name + e.where().substr(path.string().size()), e.reason());

@@ -4,17 +4,21 @@
 
 #include <algorithm>
 #include <cctype>
+#include <string_view>
+#include <utility>
 
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
 #include "server/experiments/experiment_changes.h"
+#include "server/opened_input.h"
 
 namespace faba {
 namespace {
 
 namespace fs = std::filesystem;
 constexpr const char* kFolder = "experiments";
+constexpr const char* kVideoFolder = "videos";
 constexpr std::size_t kLongestName = 80;
 
 // Of the content of a file: pages compare it with the one that they have.
@@ -24,9 +28,13 @@ std::string revision_of(const std::string& content) {
   return h.hex();
 }
 
-Json card(const std::string& name, const fs::path& file) {
+std::string shown_folder(const std::string& name) { return fmt::format("{}/{}", kFolder, name); }
+
+Json card(const std::string& name, const ExperimentStore& store) {
   try {
-    const Experiment e = read_experiment(file);
+    const Experiment e = with_opened(store.folder(name), shown_folder(name), [](const fs::path& dir) {
+      return read_experiment(dir / kExperimentFile);
+    });
     return {{"name", name}, {"title", e.title}, {"drops", e.drops.size()}, {"videos", e.videos.size()}};
   } catch (const Error& e) {
     return {{"name", name}, {"title", name}, {"error", e.what()}};
@@ -60,17 +68,49 @@ bool is_utf8(const std::string& text) {
   }
 }
 
+// The character of valid UTF-8 that begins at a byte.
+std::string character_at(const std::string& text, std::size_t at) {
+  std::size_t end = at + 1;
+  while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) ++end;
+  return text.substr(at, end - at);
+}
+
+// Controls of Unicode (U+0080 to U+009F) and characters that are invisible or change the direction of text: a
+// name with them looks like another one.
+bool is_invisible(const std::string& character) {
+  using Range = std::pair<std::string_view, std::string_view>;
+  // UTF-8 has the order of the code points.
+  static constexpr Range kInvisible[] = {
+      {"\xC2\x80", "\xC2\x9F"},                   // controls
+      {"\xC2\xAD", "\xC2\xAD"},                   // soft hyphen
+      {"\xD8\x9C", "\xD8\x9C"},                   // Arabic letter mark
+      {"\xE1\xA0\x8E", "\xE1\xA0\x8E"},           // Mongolian vowel separator
+      {"\xE2\x80\x8B", "\xE2\x80\x8F"},           // zero width, marks of direction
+      {"\xE2\x80\xA8", "\xE2\x80\xAE"},           // line separators, embeddings, overrides
+      {"\xE2\x81\xA0", "\xE2\x81\xAF"},           // word joiner, isolates
+      {"\xEF\xBB\xBF", "\xEF\xBB\xBF"},           // byte order mark
+      {"\xEF\xBF\xB9", "\xEF\xBF\xBB"},           // annotations
+      {"\xF3\xA0\x80\x80", "\xF3\xA0\x81\xBF"}};  // tags
+  const std::string_view c = character;
+  return std::any_of(std::begin(kInvisible), std::end(kInvisible), [&](const Range& r) {
+    return c.size() == r.first.size() && c >= r.first && c <= r.second;
+  });
+}
+
 }  // namespace
 
 std::string safe_name(const std::string& text) {
   std::string name;
   const bool unicode = is_utf8(text);
-  for (const char c : text) {
-    const auto u = static_cast<unsigned char>(c);
+  for (std::size_t at = 0; at < text.size();) {
+    const std::string character = unicode ? character_at(text, at) : text.substr(at, 1);
+    at += character.size();
+    const auto u = static_cast<unsigned char>(character[0]);
     // Letters of UTF-8 remain as they are; other bytes would make the experiment file invalid.
-    const bool good = u < 0x80 ? std::isalnum(u) || c == '.' || c == '_' : unicode;
+    const bool good =
+        u < 0x80 ? std::isalnum(u) || u == '.' || u == '_' : unicode && !is_invisible(character);
     if (good)
-      name += c;
+      name += character;
     else if (!name.empty() && name.back() != '-')
       name += '-';
   }
@@ -85,10 +125,17 @@ std::string safe_name(const std::string& text) {
 }
 
 fs::path ExperimentStore::folder(const std::string& name) const {
-  const fs::path dir = workspace_.inside(fmt::format("{}/{}", kFolder, name));
+  const fs::path dir = workspace_.inside(shown_folder(name));
   if (name.empty() || name.find('/') != name.npos || !experiment_file(dir))
     throw Error(Errc::input, name.substr(0, kLongestName), "experiment not found");
+  workspace_.check_links(dir);
   return dir;
+}
+
+fs::path ExperimentStore::video_folder(const std::string& name) const {
+  with_opened(folder(name), shown_folder(name),
+              [](const fs::path& dir) { fs::create_directory(dir / kVideoFolder); });
+  return workspace_.inside(fmt::format("{}/{}", shown_folder(name), kVideoFolder));
 }
 
 Json ExperimentStore::list() const {
@@ -102,8 +149,7 @@ Json ExperimentStore::list() const {
   }
   std::sort(found.rbegin(), found.rend());
   Json all = Json::array();
-  for (const auto& [_, name] : found)
-    all.push_back(card(name, workspace_.root() / kFolder / name / kExperimentFile));
+  for (const auto& [_, name] : found) all.push_back(card(name, *this));
   return all;
 }
 
@@ -117,7 +163,7 @@ std::string ExperimentStore::create(const std::string& title) {
   std::string name = wanted;
   for (int i = 2; fs::exists(workspace_.root() / kFolder / name); ++i) name = fmt::format("{}-{}", wanted, i);
   const fs::path dir = workspace_.inside(fmt::format("{}/{}", kFolder, name));
-  fs::create_directories(dir / "videos");
+  fs::create_directories(dir / kVideoFolder);
   write_file(dir / kExperimentFile, to_toml({{"title", title}}));
   return name;
 }
@@ -128,17 +174,29 @@ Json ExperimentStore::read(const std::string& name) const {
 }
 
 Json ExperimentStore::read_locked(const std::string& name) const {
-  const fs::path file = folder(name) / kExperimentFile;
-  const Document d = read_toml(file);
-  (void)read_experiment(d);
-  return {{"name", name}, {"revision", revision_of(read_file(file))}, {"experiment", d.root}};
+  return with_opened(folder(name), shown_folder(name), [&](const fs::path& dir) -> Json {
+    const fs::path file = dir / kExperimentFile;
+    const Document d = read_toml(file);
+    (void)read_experiment(d);
+    return {{"name", name}, {"revision", revision_of(read_file(file))}, {"experiment", d.root}};
+  });
+}
+
+Document ExperimentStore::document(const std::string& name) const {
+  Document d = with_opened(folder(name), shown_folder(name), [](const fs::path& dir) {
+    Document read = read_toml(dir / kExperimentFile);
+    (void)read_experiment(read);
+    return read;
+  });
+  d.name = kExperimentFile;
+  d.origin.clear();  // lines of this file, which is changed
+  return d;
 }
 
 Json ExperimentStore::change(const std::string& name, const Json& asked) {
   const std::vector<ExperimentChange> changes = changes_of(asked);
   const std::lock_guard lock(mutex_);
-  const fs::path file = folder(name) / kExperimentFile;
-  Document d = read_toml(file);
+  Document d = document(name);
   const std::vector<ChangeConflict> conflicts = apply_changes(d.root, changes);
   if (conflicts.empty()) write_locked(name, std::move(d));
   Json answer = read_locked(name);
@@ -150,7 +208,7 @@ Json ExperimentStore::change(const std::string& name, const Json& asked) {
 
 void ExperimentStore::add_video(const std::string& name, const std::string& file, const std::string& drop) {
   const std::lock_guard lock(mutex_);
-  Document d = read_toml(folder(name) / kExperimentFile);
+  Document d = document(name);
   Json video = {{"file", file}};
   // Another page may have removed the drop during the upload.
   if (has_drop(d, drop)) video["drop"] = drop;
@@ -160,7 +218,7 @@ void ExperimentStore::add_video(const std::string& name, const std::string& file
 
 VideoEntry ExperimentStore::video(const std::string& name, const std::string& file) const {
   const std::lock_guard lock(mutex_);
-  Document d = read_toml(folder(name) / kExperimentFile);
+  Document d = document(name);
   const Json& videos = videos_of(d);
   const std::size_t i = position_of(videos, file);
   if (i == videos.size())
@@ -170,7 +228,7 @@ VideoEntry ExperimentStore::video(const std::string& name, const std::string& fi
 
 void ExperimentStore::remove_video(const std::string& name, const std::string& file) {
   const std::lock_guard lock(mutex_);
-  Document d = read_toml(folder(name) / kExperimentFile);
+  Document d = document(name);
   Json& videos = videos_of(d);
   const std::size_t i = position_of(videos, file);
   if (i == videos.size()) return;
@@ -180,7 +238,7 @@ void ExperimentStore::remove_video(const std::string& name, const std::string& f
 
 void ExperimentStore::restore_video(const std::string& name, const VideoEntry& entry) {
   const std::lock_guard lock(mutex_);
-  Document d = read_toml(folder(name) / kExperimentFile);
+  Document d = document(name);
   Json& videos = videos_of(d);
   if (position_of(videos, entry.values.value("file", "")) < videos.size()) return;
   Json values = entry.values;
@@ -210,11 +268,10 @@ std::vector<std::string> ExperimentStore::users_of(const fs::path& file, const s
 }
 
 void ExperimentStore::write_locked(const std::string& name, Document d) {
-  const fs::path file = folder(name) / kExperimentFile;
-  d.name = kExperimentFile;
-  d.origin.clear();  // lines of the file before
-  check_videos(file, read_experiment(d));
-  write_file(file, to_toml(d.root));
+  const fs::path dir = folder(name);
+  check_videos(dir / kExperimentFile, read_experiment(d));
+  with_opened(dir, shown_folder(name),
+              [&](const fs::path& opened) { write_file(opened / kExperimentFile, to_toml(d.root)); });
   changed_(name);
 }
 

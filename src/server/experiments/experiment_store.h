@@ -49,9 +49,13 @@ class ExperimentStore {
 
   /// Its folder. Throws Error(input) if there is no such experiment.
   std::filesystem::path folder(const std::string& name) const;
+  /// The folder of its imported videos, created if it is missing. Throws Error(usage) if a link leads out of
+  /// the workspace.
+  std::filesystem::path video_folder(const std::string& name) const;
 
  private:
   Json read_locked(const std::string& name) const;
+  Document document(const std::string& name) const;
   void write_locked(const std::string& name, Document d);
   void check_videos(const std::filesystem::path& file, const Experiment& e) const;
 
@@ -61,7 +65,8 @@ class ExperimentStore {
 };
 
 /// A name for files and folders: letters, digits, dots, dashes and underscores, without a leading dot or
-/// dash; other characters become dashes. Empty if nothing is left.
+/// dash; other characters become dashes, also those of Unicode that are invisible or change the direction of
+/// text. Empty if nothing is left.
 std::string safe_name(const std::string& text);
 
 }  // namespace faba

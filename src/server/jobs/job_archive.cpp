@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/json_input.h"
 
 namespace faba {
 namespace {
@@ -34,7 +35,8 @@ void add_jobs(const fs::path& workspace, const fs::path& folder, std::vector<Job
     const fs::path file = e.path() / kJobFile;
     if (!fs::is_regular_file(file, ec) || fs::file_size(file, ec) > kLargest) continue;
     try {
-      const Json j = Json::parse(read_file(file));
+      const Json j = parse_json(read_file(file));
+      if (!j.is_object()) continue;
       if (j.value("listed", true)) jobs.push_back(read_job(j, folder / e.path().filename()));
     } catch (const Json::exception&) {
       continue;

@@ -134,10 +134,11 @@ struct JobList::Process {
 };
 
 JobList::JobList(std::filesystem::path program, std::filesystem::path workspace,
-                 std::function<void()> changed)
+                 std::function<void()> changed, std::function<void(const Job&)> check)
     : program_(std::move(program)),
       workspace_(std::move(workspace)),
       changed_(std::move(changed)),
+      check_(std::move(check)),
       jobs_(kept_jobs(workspace_, kKept)),
       next_(next_id(jobs_)),
       thread_([this](const std::stop_token& s) { work(s); }) {}
@@ -264,6 +265,7 @@ void JobList::work(const std::stop_token& stop) {
     job.state = Job::State::running;
     report(job);
     try {
+      if (check_) check_(job);
       carry_out(job, stop);
     } catch (const std::exception& e) {
       job.state = Job::State::failed;

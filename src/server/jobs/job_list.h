@@ -17,8 +17,10 @@ namespace faba {
 /// lab in the same workspace. Thread-safe.
 class JobList {
  public:
-  /// `changed` is called on the thread of the list, at most a few times per second.
-  JobList(std::filesystem::path program, std::filesystem::path workspace, std::function<void()> changed);
+  /// `changed` is called on the thread of the list, at most a few times per second. `check` is called before
+  /// a job starts, which may be long after add(); a job for which it throws fails.
+  JobList(std::filesystem::path program, std::filesystem::path workspace, std::function<void()> changed,
+          std::function<void(const Job&)> check = {});
   /// Stops the running job and waits for its end.
   ~JobList();
 
@@ -46,6 +48,7 @@ class JobList {
 
   std::filesystem::path program_, workspace_;
   std::function<void()> changed_;
+  std::function<void(const Job&)> check_;
   mutable std::mutex mutex_;
   std::condition_variable wake_;
   std::vector<Job> jobs_;

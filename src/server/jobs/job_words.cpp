@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/units.h"
+#include "study/experiment/experiment.h"
 
 namespace faba {
 namespace {
@@ -124,8 +125,65 @@ void check_keys(const JobKind& kind, const Json& values) {
 // With "./" a name that starts with a dash does not become an option. Files of allowed folders have absolute
 // paths.
 std::string word_of_file(const std::string& file) { return file.starts_with('/') ? file : "./" + file; }
+// The inverse of word_of_file(); empty for another word.
+std::string file_of_word(const std::string& word) {
+  return word.starts_with('/') ? word : word.starts_with("./") ? word.substr(2) : "";
+}
+
+// Throws Error(usage) if an experiment has a video that pages may not read. An invalid file is reported by
+// the job.
+void check_experiment(const std::filesystem::path& path, const Workspace& workspace) {
+  const auto file = experiment_file(path);
+  if (!file) return;
+  Experiment e;
+  try {
+    e = read_experiment(*file);
+  } catch (const Error&) {
+    return;
+  }
+  if (!e.noise.empty()) e.videos.emplace_back().file = e.noise;
+  for (const ExperimentVideo& v : e.videos)
+    if (!workspace.may_read(video_path(*file, v)))
+      throw Error(Errc::usage, v.file,
+                  "is neither in the folder in which the lab was started nor in a folder given by --allow");
+}
+
+// Whether a word after the verb is one that job_words() makes.
+bool is_word_of(const JobKind& kind, const std::string& word, const Job& job, const Workspace& workspace) {
+  if (word == "--json") return true;
+  const auto equals = word.starts_with("--") ? word.find('=') : word.npos;
+  const std::string option = equals == word.npos ? "" : word.substr(0, equals);
+  const std::string value = equals == word.npos ? word : word.substr(equals + 1);
+  for (const JobOutput& o : kind.outputs)
+    if (!option.empty() && o.option == option) return value == (job.out / o.file).string();
+  for (const JobInput& i : kind.inputs) {
+    if (i.kind == In::flag && word == i.option) return true;
+    if (i.option != option || i.kind == In::flag) continue;
+    if (!is_file(i)) return !option.empty();
+    if (file_of_word(value).empty()) continue;
+    (void)files_of(i, file_of_word(value), workspace);
+    return true;
+  }
+  return false;
+}
 
 }  // namespace
+
+void check_job(const Job& job, const Workspace& workspace) {
+  if (!job.out.empty()) (void)workspace.inside(job.out.string());
+  if (job.kind.empty()) {
+    for (const std::string& word : job.words)
+      if (!file_of_word(word).empty()) (void)workspace.existing(file_of_word(word));
+    return;
+  }
+  const JobKind& kind = job_kind(job.kind);
+  const std::size_t verb = kind.verb.size();
+  bool good = job.words.size() > verb && std::equal(kind.verb.begin(), kind.verb.end(), job.words.begin());
+  for (std::size_t k = verb; good && k < job.words.size(); ++k)
+    good = is_word_of(kind, job.words[k], job, workspace);
+  if (!good)
+    throw Error(Errc::usage, job.title, "its command was changed outside of the lab; start a new job");
+}
 
 std::string word_of(const JobInput& i, const Json& value) {
   switch (i.kind) {
@@ -157,7 +215,8 @@ std::vector<std::string> files_of(const JobInput& i, const Json& value, const Wo
       refuse(i, fmt::format("{} is not a file name; choose a file of the list", shown(one)));
     const std::string name = one.get<std::string>();
     try {
-      (void)workspace.existing(name);
+      const std::filesystem::path path = workspace.existing(name);
+      if (i.kind == In::experiment) check_experiment(path, workspace);
     } catch (const Error& e) {
       refuse(i, e.what());
     }

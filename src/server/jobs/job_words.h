@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "server/jobs/job.h"
 #include "server/jobs/job_kind.h"
 #include "server/workspace.h"
 
@@ -22,5 +23,10 @@ std::vector<std::string> files_of(const JobInput& input, const Json& value, cons
 /// Error(usage) with the key of a value that is missing, unknown or invalid.
 std::vector<std::string> job_words(const JobKind& kind, const Json& values, const Workspace& workspace,
                                    const std::filesystem::path& folder);
+
+/// Throws Error if the command of a job is not one that the lab makes, or if its files are not (any more) in
+/// the workspace or in an allowed folder: job files in the workspace may come from elsewhere, and folders may
+/// change while a job is queued.
+void check_job(const Job& job, const Workspace& workspace);
 
 }  // namespace faba

@@ -7,6 +7,7 @@
 #include "app/recording/run_lock.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/json_input.h"
 #include "server/trash.h"
 #include "study/data/run_info.h"
 #include "study/data/series.h"
@@ -35,7 +36,7 @@ void add_tags(Json& card, const fs::path& dir) {
   std::error_code ec;
   if (!fs::is_regular_file(dir / kTagsFile, ec)) return;
   try {
-    card.update(tags_of(Json::parse(read_file(dir / kTagsFile))));
+    card.update(tags_of(parse_json(read_file(dir / kTagsFile))));
   } catch (const std::exception&) {
     return;  // edited by hand; the page can replace it
   }
@@ -76,7 +77,8 @@ std::string tag_of(const Json& asked) {
 }  // namespace
 
 Json run_card(const std::string& name, const fs::path& dir) {
-  const Json m = Json::parse(read_file(dir / run_files::kManifest));
+  const Json m = parse_json(read_file(dir / run_files::kManifest));
+  if (!m.is_object()) throw Error(Errc::input, name, "has an invalid manifest");
   Json files = Json::array();
   for (const char* file : {"series.csv", "tracks.h5", "video.mp4", "video.avi", "flow.h5", "report.html"})
     if (fs::exists(dir / file)) files.push_back(file);

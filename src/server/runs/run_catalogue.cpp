@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "server/experiments/experiment_store.h"
+#include "server/opened_input.h"
 #include "server/runs/run_card.h"
 
 namespace faba {
@@ -107,7 +108,8 @@ std::string RunCatalogue::rename(const std::string& name, const std::string& to)
 
 void RunCatalogue::set_tags(const std::string& name, const Json& asked) {
   const std::lock_guard lock(mutex_);
-  write_file(folder(name) / kTagsFile, tags_of(asked).dump(2) + "\n");
+  const std::string tags = tags_of(asked).dump(2) + "\n";
+  with_opened(folder(name), name, [&](const fs::path& dir) { write_file(dir / kTagsFile, tags); });
 }
 
 }  // namespace faba

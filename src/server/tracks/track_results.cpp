@@ -12,7 +12,9 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
+#include "core/json_input.h"
 #include "server/experiments/experiment_store.h"
+#include "server/opened_input.h"
 #include "server/request_values.h"
 
 namespace faba {
@@ -55,7 +57,7 @@ Json TrackResults::list() const {
   Json all = Json::array();
   for (const auto& [_, dir] : found) {
     if (all.size() >= kMostResults) break;
-    const Json j = Json::parse(read_file(dir / track_files::kSummary), nullptr, false);
+    const Json j = parse_json(read_file(dir / track_files::kSummary));
     if (!j.is_object()) continue;
     all.push_back({{"folder", fs::relative(dir, workspace_.root(), ec).string()},
                    {"video", fs::path(j.value("video", "")).filename().string()},
@@ -168,7 +170,9 @@ Json TrackResults::change(const std::string& folder, const Json& asked) {
   d.root.erase("sha256");
   const TrackEdits edits = read_track_edits(d, before->folder);
   (void)apply_edits(before->folder, edits);  // invalid edits are not written
-  write_file(path(folder) / track_files::kEdits, to_toml(edits_document(edits, before->folder)));
+  const std::string text = to_toml(edits_document(edits, before->folder));
+  with_opened(path(folder), folder,
+              [&](const fs::path& dir) { write_file(dir / track_files::kEdits, text); });
   return tracks_json(*load(folder));
 }
 
@@ -179,9 +183,10 @@ Json TrackResults::edited(const std::string& folder) {
 
 Json TrackResults::write(const std::string& folder) {
   const auto r = load(folder);
-  const fs::path dir = path(folder);
-  write_file(dir / kEditedTracks, edited_tracks_csv(r->folder, r->edited));
-  write_file(dir / kEditedFeatures, track_features_csv(r->folder, r->edited));
+  with_opened(path(folder), folder, [&](const fs::path& dir) {
+    write_file(dir / kEditedTracks, edited_tracks_csv(r->folder, r->edited));
+    write_file(dir / kEditedFeatures, track_features_csv(r->folder, r->edited));
+  });
   return {{"tracks", kEditedTracks}, {"features", kEditedFeatures}};
 }
 

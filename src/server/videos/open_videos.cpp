@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <optional>
 
+#include "server/opened_input.h"
+#include "study/data/run_video.h"
+
 namespace faba {
 namespace {
 
@@ -23,7 +26,8 @@ struct OpenVideos::Video {
   std::filesystem::path path;
   std::filesystem::file_time_type changed;
   std::uintmax_t size = 0;
-  std::mutex mutex;  // of `frames`
+  std::mutex mutex;  // of `file` and `frames`
+  std::optional<OpenedPath> file;
   std::optional<VideoFrames> frames;
   std::size_t bytes = 0;  // protected by the mutex of OpenVideos
 };
@@ -63,16 +67,26 @@ std::size_t OpenVideos::size() const {
   return videos_.size();
 }
 
-void OpenVideos::with(const std::filesystem::path& path, const std::function<void(VideoFrames&)>& use) {
+void OpenVideos::with(const std::filesystem::path& path, const std::function<void(VideoFrames&)>& use,
+                      const std::function<RunVideo()>& find) {
   const std::shared_ptr<Video> video = video_of(path);
   const std::lock_guard in_use(video->mutex);
-  if (!video->frames) {
-    video->frames.emplace(path);
-    const std::lock_guard lock(mutex_);
-    video->bytes = video->frames->bytes();
-    close_oldest();
+  try {
+    if (!video->frames) open(*video, find ? find() : run_video(path));
+    use(*video->frames);
+  } catch (const Error& e) {
+    if (!video->file) throw;
+    throw renamed(e, video->file->path().string(), path.string());
   }
-  use(*video->frames);
+}
+
+void OpenVideos::open(Video& video, RunVideo found) {
+  video.file.emplace(found.file);
+  found.file = video.file->path();
+  video.frames.emplace(std::move(found));
+  const std::lock_guard lock(mutex_);
+  video.bytes = video.frames->bytes();
+  close_oldest();
 }
 
 }  // namespace faba

@@ -14,8 +14,10 @@ namespace faba {
 /// found quickly. Thread-safe: requests for one video wait for each other.
 class OpenVideos {
  public:
-  /// Calls `use` with the video, opened again if the file has changed. Throws as VideoFrames.
-  void with(const std::filesystem::path& path, const std::function<void(VideoFrames&)>& use);
+  /// Calls `use` with the video, opened again if the file has changed. `find` returns its file, without
+  /// links; default: run_video(). Throws as VideoFrames and OpenedPath.
+  void with(const std::filesystem::path& path, const std::function<void(VideoFrames&)>& use,
+            const std::function<RunVideo()>& find = {});
 
   std::size_t size() const;  ///< number of open videos
   static constexpr std::size_t kMostVideos = 8;
@@ -24,6 +26,7 @@ class OpenVideos {
  private:
   struct Video;
   std::shared_ptr<Video> video_of(const std::filesystem::path& path);
+  void open(Video& video, RunVideo found);
   void close_oldest();
 
   mutable std::mutex mutex_;

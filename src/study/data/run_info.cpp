@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/json_input.h"
 #include "core/toml.h"
 
 namespace faba {
@@ -53,7 +54,7 @@ class Keys {
 };
 
 Json parsed(const std::filesystem::path& path) {
-  Json json = Json::parse(read_file(path), nullptr, false);
+  Json json = parse_json(read_file(path));
   if (!json.is_object()) throw Error(Errc::input, path.string(), "not a JSON object");
   return json;
 }

@@ -20,7 +20,9 @@ constexpr std::size_t kMostKnown = 12, kMostKnownBytes = std::size_t{48} << 20;
 
 }  // namespace
 
-VideoFrames::VideoFrames(const std::filesystem::path& path) : video_(run_video(path)) {
+VideoFrames::VideoFrames(const std::filesystem::path& path) : VideoFrames(run_video(path)) {}
+
+VideoFrames::VideoFrames(RunVideo video) : video_(std::move(video)) {
   reader_.emplace(video_.file);
   frames_stated_ = reader_->frames_in_header();
   interval_s_ = 1 / (fps() > 0 ? fps() : 1);

@@ -29,6 +29,7 @@ class VideoFrames {
  public:
   /// Throws as run_video() and VideoReader.
   explicit VideoFrames(const std::filesystem::path& path);
+  explicit VideoFrames(RunVideo video);
 
   int width() const { return reader_->width(); }    ///< px
   int height() const { return reader_->height(); }  ///< px

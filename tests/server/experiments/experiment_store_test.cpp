@@ -115,4 +115,8 @@ TEST_CASE("names of files are safe") {
   CHECK(safe_name(std::string(300, 'a')).size() == 80);
   CHECK(safe_name(std::string("a\n\0b", 4)) == "a-b");
   CHECK(safe_name("a\xff.avi") == "a-.avi");  // not UTF-8
+  // Invisible characters and those that change the direction of text.
+  CHECK(safe_name("a\u202Eiva.exe.avi") == "a-iva.exe.avi");
+  CHECK(safe_name("a\u200B\u2066\uFEFF\u061C\u0085b.avi") == "a-b.avi");
+  CHECK(safe_name("\u05D0\u0628\u6F22.avi") == "\u05D0\u0628\u6F22.avi");
 }

@@ -77,6 +77,25 @@ TEST_CASE("a file that does not fit on the disk is refused before the first byte
   CHECK_THROWS_WITH_AS(lab.take("big.avi", 0, "x", std::uint64_t(1) << 60), doctest::Contains("MB are free"),
                        const Error&);
   CHECK(fs::is_empty(lab.videos));
+  // Neither is one whose size is near the limit of the number.
+  for (const std::uint64_t size :
+       {~std::uint64_t(0), ~std::uint64_t(0) - (100u << 20), std::uint64_t(1) << 63})
+    CHECK_THROWS_WITH_AS(lab.take("big.avi", 0, "x", size), doctest::Contains("MB are free"), const Error&);
+  CHECK(fs::is_empty(lab.videos));
+}
+
+TEST_CASE("the time of a file is limited, and so is the number of incomplete uploads") {
+  Lab lab;
+  for (const std::int64_t time :
+       {std::numeric_limits<std::int64_t>::max(), std::int64_t(-1), std::int64_t(1) << 40})
+    CHECK_THROWS_AS(
+        lab.imports.take("x", {.name = "a.pgm", .size = kPicture.size(), .modified_s = time}, kPicture),
+        const Error&);
+  CHECK(fs::is_empty(lab.videos));
+  for (int k = 0; k < 200; ++k) lab.take(std::to_string(k) + ".pgm", 0, "P5");
+  CHECK_THROWS_WITH_AS(lab.take("more.pgm", 0, "P5"), doctest::Contains("200 uploads"), const Error&);
+  CHECK(lab.take("7.pgm", 2, kPicture.substr(2))["file"] == "videos/7.pgm");
+  CHECK_NOTHROW(lab.take("more.pgm", 0, "P5"));
 }
 
 TEST_CASE("S6: uploads cannot leave the folder of the experiment") {

@@ -164,6 +164,67 @@ TEST_CASE("messages have the input, the value, what is permitted and advice") {
                        doctest::Contains("\"rm\" is not a kind of job; it must be one of activity"), Error);
 }
 
+TEST_CASE("a job starts only with a command that the lab makes, and with files that it may read") {
+  const Files f;
+  const auto job = [&](const Words& words) {
+    return Job{.title = "j", .words = words, .out = "runs/x", .kind = "activity"};
+  };
+  const auto error = [&](const Job& j) {
+    try {
+      check_job(j, f.workspace);
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  const Words made =
+      f.words("activity", {{"videos", {"b c.mp4", "-o"}}, {"direction", 10}, {"noise", "a.mp4"}});
+  CHECK(error(job(made)) == "");
+  for (const char* word : {"--engine=slurm", "--engine", "slurm", "--out=/tmp/x", "--report=../x.html",
+                           "b.mp4", "--noise=a.mp4", "-o", "--json=x", "--", "--noise"}) {
+    Words more = made;
+    more.push_back(word);
+    INFO(word);
+    CHECK(contains(error(job(more)), "its command was changed outside of the lab"));
+  }
+  for (const char* word :
+       {"./link.mp4", "/etc/passwd", "./../x", "--noise=./link.mp4", "--noise=/etc/passwd"}) {
+    Words more = made;
+    more.push_back(word);
+    INFO(word);
+    CHECK_FALSE(error(job(more)).empty());
+  }
+  CHECK(contains(error(job({"run", "./a.mp4"})), "its command was changed"));
+  CHECK(contains(error(job({})), "its command was changed"));
+  // Recordings have no kind.
+  const Job run{.title = "r", .words = {"run", "./link.mp4", "--out", "runs/x"}, .out = "runs/x"};
+  CHECK(contains(error(run), "outside"));
+  Job elsewhere = job(made);
+  elsewhere.out = "../x";
+  CHECK(contains(error(elsewhere), "outside"));
+}
+
+TEST_CASE("files of an allowed folder are named by their path; an experiment has no others") {
+  test::TemporaryFolder folder("job-allowed");
+  const fs::path all = fs::canonical(folder.path()), root = all / "lab";
+  for (const fs::path& dir : {root / "experiments/x", all / "data", all / "other"})
+    fs::create_directories(dir);
+  for (const fs::path& file : {all / "data/a.mp4", all / "other/a.mp4"}) write_file(file, "");
+  const Workspace w(root, {}, {all / "data"});
+  const std::string video = (all / "data/a.mp4").string();
+  const Words words = job_words(job_kind("flow"), {{"video", video}}, w, "runs/x");
+  CHECK(words[1] == video);
+  CHECK_NOTHROW(check_job({.words = words, .out = "runs/x", .kind = "flow"}, w));
+  const auto experiment = [&](const fs::path& file) {
+    write_file(root / "experiments/x/experiment.toml",
+               "title = 'x'\n[[video]]\nfile = '" + file.string() + "'\n");
+    return job_words(job_kind("activity-exposure"), {{"experiment", "experiments/x"}}, w, "runs/x");
+  };
+  CHECK_NOTHROW((void)experiment(all / "data/a.mp4"));
+  for (const fs::path& bad : {all / "other/a.mp4", fs::path("../../../other/a.mp4"), fs::path("/etc/passwd")})
+    CHECK_THROWS_WITH_AS((void)experiment(bad), doctest::Contains("--allow"), const Error&);
+}
+
 TEST_CASE("every kind has a schema with its inputs") {
   for (const JobKind& k : job_kinds()) {
     INFO(k.name);

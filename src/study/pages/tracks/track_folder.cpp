@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/json_input.h"
 #include "core/schema.h"
 #include "core/table.h"
 #include "core/table_list.h"
@@ -107,7 +108,7 @@ TrackFolder read_track_folder(const fs::path& folder) {
   TrackFolder out;
   const fs::path summary = folder / track_files::kSummary;
   try {
-    out.summary = Json::parse(read_file(summary));
+    out.summary = parse_json(read_file(summary));
     out.frame_s = out.summary.at("frame_s").get<double>();
     if (const Json& um = out.summary.at("um_per_px"); um.is_number()) out.um_per_px = um.get<double>();
     if (const Json& speed = out.summary.at("speed"); speed.is_object())
