@@ -28,6 +28,7 @@ export const files: Record<string, string> = {
   '{}; the file size limit (ulimit -f) or the limit of the file system is reached': '{}; o limite de tamanho de arquivo (ulimit -f) ou o limite do sistema de arquivos foi atingido',
   '{}; does the folder exist?': '{}; a pasta existe?',
   'cannot be flushed: {}': 'não pode ser descarregado para o disco: {}',
+  'file not found: {}': 'arquivo não encontrado: {}',
   'file not found; check the name': 'arquivo não encontrado; verifique o nome',
   'is a directory, not a file': 'é uma pasta, não um arquivo',
   'cannot be read': 'não pode ser lido',
