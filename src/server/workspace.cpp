@@ -80,7 +80,10 @@ fs::path Workspace::inside(std::string_view name) const {
 bool Workspace::may_read(const fs::path& file) const {
   std::error_code ec;
   const fs::path real = fs::weakly_canonical(file, ec);
-  if (ec) return false;
+  return !ec && is_readable(real);
+}
+
+bool Workspace::is_readable(const fs::path& real) const {
   return lies_below(root_, real) ||
          std::any_of(allowed_.begin(), allowed_.end(),
                      [&](const fs::path& folder) { return lies_below(folder, real); });
@@ -95,8 +98,9 @@ std::string Workspace::name_of(const fs::path& file) const {
 fs::path Workspace::existing(std::string_view name) const {
   std::error_code ec;
   const bool absolute = name.starts_with('/') && name.size() <= kLongest && name.find('\0') == name.npos;
-  if (absolute && !may_read(name)) throw out_of_reach(name);
+  // The path is resolved once: the result is checked, because a folder may be replaced by a link meanwhile.
   fs::path path = absolute ? fs::weakly_canonical(name, ec) : inside(name);
+  if (ec || !is_readable(path)) throw out_of_reach(name);
   if (!fs::is_regular_file(path, ec) && !fs::is_directory(path, ec))
     throw Error(Errc::input, std::string(name), "file not found in the folder in which the lab was started");
   if (fs::exists(path / run_files::kManifest, ec) || experiment_file(path)) check_links(path);

@@ -62,6 +62,9 @@ class Workspace {
   std::vector<std::string> runs() const;
 
  private:
+  /// The same for a path without links.
+  bool is_readable(const std::filesystem::path& real) const;
+
   std::filesystem::path root_, gallery_;
   std::vector<std::filesystem::path> allowed_;
 };

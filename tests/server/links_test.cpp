@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include <atomic>
+#include <chrono>
 #include <thread>
 
 #include "core/error.h"
@@ -47,14 +48,15 @@ void add_run(const fs::path& dir, std::uint8_t grey) {
 /// Exchanges a folder and a link to a folder outside, again and again, until the end of its life.
 class Exchange {
  public:
-  Exchange(const fs::path& folder, const fs::path& outside)
+  Exchange(const fs::path& folder, const fs::path& outside, std::chrono::microseconds pause = {})
       : folder_(folder), link_(folder.string() + "-link") {
     fs::create_directory_symlink(outside, link_);
-    thread_ = std::thread([this] {
+    thread_ = std::thread([this, pause] {
       while (!end_) {
         if (::renameat2(AT_FDCWD, folder_.c_str(), AT_FDCWD, link_.c_str(), RENAME_EXCHANGE) != 0)
           ++failures_;
         ++exchanges_;
+        std::this_thread::sleep_for(pause);
       }
     });
   }
@@ -250,7 +252,8 @@ TEST_CASE("an import and a change write into the experiment, whatever replaces i
   write_file(f.outside / "x/experiment.toml", "title = 'another'\n");
   int done = 0;
   {
-    const Exchange exchange(f.root / "experiments/x", f.outside / "x");
+    // A slow exchange: both requests check a path several times.
+    const Exchange exchange(f.root / "experiments/x", f.outside / "x", std::chrono::milliseconds(1));
     for (int k = 0; k < 300; ++k) {
       try {
         imports.take("x", {.name = fmt::format("a{}.pgm", k), .size = 2 * kPicture.size()}, kPicture);
