@@ -67,7 +67,6 @@ export const lab: Record<string, string> = {
   '{} s must be before the end of the recorded part at {} s': '{} s deve ser antes do fim da parte gravada em {} s',
   'a folder of this path was replaced by a link; try again': 'uma pasta deste caminho foi substituída por um link; tente de novo',
   'cannot be written: {}': 'não pode ser gravado: {}',
-  'file not found: {}': 'arquivo não encontrado: {}',
   'has an invalid manifest': 'tem um manifesto inválido',
   'is a link to a place outside of the folder in which the lab was started; remove the link, or use faba lab --allow FOLDER': 'é um link para um lugar fora da pasta em que o laboratório foi iniciado; remova o link ou use faba lab --allow FOLDER',
   'is not a file of its own: it is a device or has a second name (hard link); delete it': 'não é um arquivo independente: é um dispositivo ou tem um segundo nome (link físico); apague-o',
