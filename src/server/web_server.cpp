@@ -15,7 +15,8 @@
 #include <optional>
 
 #include "core/error.h"
-#include "core/opened_path.h"
+#include "server/files/disk_space.h"
+#include "server/files/opened_path.h"
 #include "server/page_socket.h"
 #include "server/web_request.h"
 
@@ -31,7 +32,6 @@ namespace {
 constexpr std::size_t kMostHeader = 16u << 10;
 constexpr auto kRequestTimeout = std::chrono::seconds(30);  // timeout of a request and of a response
 constexpr std::uint64_t kLeastRate = 16u << 10;             // bytes/s, mean of an upload
-constexpr std::uint64_t kSpare = 256u << 20;                // bytes that uploads leave on the disk
 constexpr std::uint64_t kMostOfRange = 8u << 20;            // maximum size of a range response
 
 // Only scripts and resources of this server.
@@ -212,7 +212,7 @@ class Connection final : public std::enable_shared_from_this<Connection> {
     std::error_code unknown;
     const auto space = std::filesystem::space(server_.uploads, unknown);
     // Uploads in progress may still need all the space for which they were accepted.
-    if (!unknown && space.available < kSpare + server_.expected + *length)
+    if (!unknown && space.available < kSpareDisk + server_.expected + *length)
       return refuse(507, fmt::format("the upload needs {:.1f} MB, but only {:.1f} MB are free for temporary "
                                      "files; delete files or set TMPDIR to a folder on another disk",
                                      double(*length) / 1e6, double(space.available) / 1e6));

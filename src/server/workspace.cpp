@@ -8,7 +8,7 @@
 #include "app/recording/run_lock.h"
 #include "app/recording/session.h"
 #include "core/error.h"
-#include "server/file_kinds.h"
+#include "server/files/file_kinds.h"
 #include "server/gallery_index.h"
 #include "study/data/run_video.h"
 #include "study/experiment/experiment.h"

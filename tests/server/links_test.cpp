@@ -11,10 +11,10 @@
 #include <thread>
 
 #include "core/error.h"
-#include "core/opened_path.h"
 #include "core/toml.h"
 #include "server/api/api.h"
 #include "server/experiments/imports.h"
+#include "server/files/opened_path.h"
 #include "tests/server/served_lab.h"
 #include "vision/files/video_writer.h"
 

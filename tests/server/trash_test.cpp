@@ -1,4 +1,4 @@
-#include "server/trash.h"
+#include "server/files/trash.h"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "server/api/lab_services.h"
 #include "server/api/responses.h"
-#include "server/file_kinds.h"
+#include "server/files/file_kinds.h"
 #include "server/request_values.h"
 
 namespace faba {

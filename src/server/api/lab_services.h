@@ -6,9 +6,9 @@
 #include "server/api/routes.h"
 #include "server/experiments/experiment_store.h"
 #include "server/experiments/imports.h"
+#include "server/files/trash.h"
 #include "server/jobs/job_list.h"
 #include "server/runs/run_catalogue.h"
-#include "server/trash.h"
 #include "server/workspace.h"
 
 namespace faba {

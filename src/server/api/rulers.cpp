@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "server/opened_input.h"
+#include "server/files/opened_input.h"
 #include "study/pages/scale_report.h"
 
 namespace faba {

@@ -9,7 +9,7 @@
 #include "core/file.h"
 #include "server/api/lab_services.h"
 #include "server/api/responses.h"
-#include "server/opened_input.h"
+#include "server/files/opened_input.h"
 #include "server/recorded_run.h"
 #include "server/request_values.h"
 #include "study/pages/thumbnail.h"

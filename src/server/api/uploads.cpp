@@ -10,7 +10,7 @@
 #include "server/api/responses.h"
 #include "server/api/rulers.h"
 #include "server/experiments/experiment_store.h"
-#include "server/opened_input.h"
+#include "server/files/opened_input.h"
 #include "server/request_values.h"
 #include "study/data/run_video.h"
 #include "study/pages/drop_report.h"

@@ -7,7 +7,7 @@
 #include "core/file.h"
 #include "server/api/lab_services.h"
 #include "server/api/responses.h"
-#include "server/file_time.h"
+#include "server/files/file_time.h"
 #include "server/request_values.h"
 #include "server/videos/open_videos.h"
 #include "study/data/frame_flow.h"

@@ -11,7 +11,7 @@
 #include "core/file.h"
 #include "core/hash.h"
 #include "server/experiments/experiment_changes.h"
-#include "server/opened_input.h"
+#include "server/files/opened_input.h"
 
 namespace faba {
 namespace {

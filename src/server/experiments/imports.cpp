@@ -10,7 +10,8 @@
 
 #include "core/error.h"
 #include "core/file.h"
-#include "server/opened_input.h"
+#include "server/files/disk_space.h"
+#include "server/files/opened_input.h"
 #include "study/data/run_video.h"
 
 namespace faba {
@@ -20,7 +21,6 @@ namespace fs = std::filesystem;
 constexpr std::string_view kPart = ".part";
 constexpr std::size_t kMostParts = 200;          // incomplete uploads of an experiment
 constexpr std::int64_t kLatest = 7'258'118'400;  // s, the year 2200
-constexpr std::uint64_t kSpare = 256u << 20;     // bytes that remain free for results
 
 // Hidden, so that pages cannot read it; size and name identify the file of the user.
 std::string part_name(const std::string& name, std::uint64_t size) {
@@ -35,13 +35,13 @@ std::uint64_t size_of(const fs::path& file) {
 
 void check_space(const fs::path& folder, std::uint64_t needed) {
   const std::uint64_t free = fs::space(folder).available;
-  if (free < kSpare || free - kSpare < needed)
+  if (free < kSpareDisk || free - kSpareDisk < needed)
     throw Error(
         Errc::usage, "disk",
         fmt::format(
             "the file needs {:.1f} MB and {} MB are kept free for results, but only {:.1f} MB are free; "
             "delete runs or imported videos, or use faba lab --allow FOLDER to read it where it is",
-            double(needed) / 1e6, kSpare / 1000000, double(free) / 1e6));
+            double(needed) / 1e6, kSpareDisk / 1000000, double(free) / 1e6));
 }
 
 // Links are not followed, and no file with a second name is changed: a part is a file of its folder.

@@ -6,8 +6,8 @@
 #include "app/recording/session.h"
 #include "app/scenario/file_kind.h"
 #include "core/error.h"
-#include "server/file_kinds.h"
-#include "server/file_time.h"
+#include "server/files/file_kinds.h"
+#include "server/files/file_time.h"
 #include "study/data/run_video.h"
 #include "study/experiment/experiment.h"
 

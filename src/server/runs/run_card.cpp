@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/json_input.h"
-#include "server/trash.h"
+#include "server/files/trash.h"
 #include "study/data/run_info.h"
 #include "study/data/series.h"
 #include "study/steering/metrics.h"

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "server/experiments/experiment_store.h"
-#include "server/opened_input.h"
+#include "server/files/opened_input.h"
 #include "server/runs/run_card.h"
 
 namespace faba {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/toml.h"
+#include "server/files/trash.h"
 #include "server/jobs/job_list.h"
-#include "server/trash.h"
 #include "server/workspace.h"
 
 namespace faba {

@@ -14,7 +14,7 @@
 #include "core/hash.h"
 #include "core/json_input.h"
 #include "server/experiments/experiment_store.h"
-#include "server/opened_input.h"
+#include "server/files/opened_input.h"
 #include "server/request_values.h"
 
 namespace faba {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "server/opened_input.h"
+#include "server/files/opened_input.h"
 #include "study/data/run_video.h"
 
 namespace faba {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "core/opened_path.h"
+#include "server/files/opened_path.h"
 
 namespace faba {
 

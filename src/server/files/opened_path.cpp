@@ -1,4 +1,4 @@
-#include "core/opened_path.h"
+#include "server/files/opened_path.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

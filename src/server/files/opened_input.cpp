@@ -1,4 +1,4 @@
-#include "server/opened_input.h"
+#include "server/files/opened_input.h"
 
 namespace faba {
 

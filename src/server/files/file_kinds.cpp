@@ -1,4 +1,4 @@
-#include "server/file_kinds.h"
+#include "server/files/file_kinds.h"
 
 #include <algorithm>
 #include <cctype>
