@@ -39,6 +39,7 @@ OTHER_MEANINGS = (
      "src/cli/verbs/drop.cpp src/server/jobs/job_kinds.cpp src/server/tracks/track_request.cpp"),
     ("drop", "a drop of an experiment",
      "src/server/api/experiments.cpp src/server/experiments/experiment_changes.cpp src/server/experiments/experiment_store.cpp "
+     "src/study/motion/activity_study.cpp "
      "web/src/pages/experiments/ExperimentPage.svelte web/src/pages/experiments/VideoRow.svelte"),
     ("drop", "the name of a file", "web/src/own/StartStep.svelte"),
     ("edge", "a layer of the picture", "web/src/workbench/Stage.svelte web/src/video/overlays.ts web/src/video/VideoViewer.svelte"),
@@ -49,6 +50,7 @@ OTHER_MEANINGS = (
      "src/app/bench/bench_view.cpp src/cli/verbs/compare.cpp src/study/identify/free_parameter.cpp "
      "src/study/pages/compare_report.cpp src/study/pages/controller_report.cpp src/study/pages/identify_report.cpp "
      "src/study/pages/tracks/track_json.cpp src/study/pages/calibration/calibration_json.cpp web/src/i18n/analyse.ts"),
+    ("none", "advice in a translated message", "web/src/i18n/program/refusals/scenario.ts"),
     ("none", "no defect", "src/rig/setup/amplifier.cpp"),
     ("none", "no fault of the guard", "src/rig/setup/coil_guard.cpp"),
     ("none", "no exclusion", "src/sim/exclusion.cpp"),

@@ -165,6 +165,13 @@ double cell_contrast(const GrayF& frame, const VideoBackground& ground, Polarity
   return differences.empty() ? 1 : quantile(differences, 0.9);
 }
 
+std::shared_ptr<const Background> background_of(const VideoBackground& ground) {
+  Background b{ground.light, GrayF(ground.light.width, ground.light.height), 0};
+  for (float& x : b.level.px) x *= float(kWhite);
+  std::fill(b.noise_sd.px.begin(), b.noise_sd.px.end(), float(std::max(0.25, ground.noise_sd * kWhite)));
+  return std::make_shared<const Background>(std::move(b));
+}
+
 // Background and noise. With Measure::density the background is a high (or low) quantile over time, because
 // dense groups cover the same pixels most of the time; with Measure::tracks everything that does not move is
 // background.
@@ -180,16 +187,16 @@ void estimate_background(ResponseVideo& v, const GrayF& first, Measure measure, 
   o.from_s = from_s - 0.5 * v.view.frame_s;
   o.to_s = to_s + 0.5 * v.view.frame_s;
   VideoBackground ground = read_video_background(v.file, o);
-  // Cells at rest would be invisible in front of themselves, and simulated ones are not.
-  if (measure == Measure::density)
-    v.resting =
-        remove_resting_cells(ground.light, v.view.cells.cell_px,
-                             cell_contrast(first, ground, v.view.cells.polarity), v.view.cells.polarity);
+  v.view.background = background_of(ground);
+  // Cells at rest would be invisible in front of themselves, and simulated ones are not. If no cell is
+  // visible in front of the background, nothing moves, which is an error later.
+  if (measure == Measure::density && !v.view.detector().find(first).empty()) {
+    const Polarity polarity = v.view.cells.polarity;
+    const double contrast = cell_contrast(first, ground, polarity);
+    v.resting = remove_resting_cells(ground.light, v.view.cells.cell_px, contrast, polarity);
+    v.view.background = background_of(ground);
+  }
   v.ground = std::make_shared<const VideoBackground>(std::move(ground));
-  Background b{v.ground->light, GrayF(v.view.width, v.view.height), 0};
-  for (float& x : b.level.px) x *= float(kWhite);
-  std::fill(b.noise_sd.px.begin(), b.noise_sd.px.end(), float(std::max(0.25, v.ground->noise_sd * kWhite)));
-  v.view.background = std::make_shared<const Background>(std::move(b));
 }
 
 // Background, noise, appearance of the cells, and boundary.
