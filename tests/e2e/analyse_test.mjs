@@ -347,7 +347,7 @@ await step('the queue: order, times, cancel, and the list after a reload', async
   const long = page.locator('li', { hasText: 'long.toml' });
   await long.getByText(/left$/).waitFor();
   const queued = page.locator('li', { has: page.locator('.state.waiting') });
-  await queued.first().getByText(/^starts in about/).waitFor();
+  await queued.first().getByText(/starts in about/).waitFor();
   assert.equal(await queued.count(), 2);
   await queued.first().getByRole('button', { name: 'Run next' }).click(); // the newest is at the top, and was the last
   await page.reload();

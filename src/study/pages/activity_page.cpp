@@ -226,7 +226,7 @@ std::string segments_table(const ActivityResult& r) {
 std::string table(const ActivityResult& r) {
   std::string out = "<h2>Results</h2>\n<div class=\"wide\"><table class=\"numbers\">\n<thead>";
   const std::string unit = time_unit(r);
-  out += text_row({"video", "direction", "threshold (px per pair)", "mean activity (px × px² per pair)",
+  out += text_row({"video", "direction", "threshold (px)", "mean activity (px × px² per pair)",
                    "per visible cell", "signal-to-noise ratio", "onset (" + unit + ")", "responding fraction",
                    "speed", "maximum (" + unit + ")", "width (" + unit + ")"},
                   "th") +
@@ -235,13 +235,13 @@ std::string table(const ActivityResult& r) {
     return a.fit.good ? std::optional(value) : std::nullopt;
   };
   for (const VideoActivity& a : r.videos)
-    out += text_row(
-        {title_of(a), short_direction_text(a.direction_deg), three_digits(a.threshold_px),
-         three_digits(a.mean_amount), activity_per_cell(a) ? three_digits(*activity_per_cell(a)) : "–",
-         a.signal_to_noise ? three_digits(*a.signal_to_noise) : "–", onset_text(a), fraction_text(a),
-         speed_text(a), with_error(if_good(a, a.fit.peak_s), a.fit.se_peak_s),
-         with_error(if_good(a, a.fit.sigma_s), a.fit.se_sigma_s)},
-        "td");
+    out += text_row({title_of(a), fmt::format("{}°", counter_clockwise_deg(a.direction_deg)),
+                     three_digits(a.threshold_px), three_digits(a.mean_amount),
+                     activity_per_cell(a) ? three_digits(*activity_per_cell(a)) : "–",
+                     a.signal_to_noise ? three_digits(*a.signal_to_noise) : "–", onset_text(a),
+                     fraction_text(a), speed_text(a), with_error(if_good(a, a.fit.peak_s), a.fit.se_peak_s),
+                     with_error(if_good(a, a.fit.sigma_s), a.fit.se_sigma_s)},
+                    "td");
   out += "</tbody></table></div>\n";
   out +=
       "<p class=\"note\">Directions in the picture count counter-clockwise: 0° is right, 90° is up. Values "
