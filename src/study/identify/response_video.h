@@ -45,7 +45,7 @@ struct ResponseVideo {
   double fps = 0, um_per_px = 0;
   std::optional<DropEdge> edge;                   ///< with Boundary::drop
   std::shared_ptr<const VideoBackground> ground;  ///< background and noise
-  std::size_t resting = 0;  ///< cells at rest that were removed from the background, or dirt of their size
+  std::size_t stationary = 0;        ///< stationary spots removed from the background, of the width of a cell
   double cell_px = 0, contrast = 0;  ///< of a rendered cell: width (FWHM), and contrast as in [microscope]
   std::optional<double> field_t;     ///< recorded field strength, T
   std::optional<double> recorded_um_per_px = {};  ///< recorded scale, if it differs from the one of the study

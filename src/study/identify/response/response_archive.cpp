@@ -78,7 +78,7 @@ void archive_response(Archive& a, ResponseVideo& v) {
   VideoBackground ground;
   if (!a.reading() && v.ground) ground = *v.ground;
   archive_picture(a, ground.light);
-  a& ground.noise_sd& v.resting;
+  a& ground.noise_sd& v.stationary;
   if (a.reading()) v.ground = std::make_shared<const VideoBackground>(std::move(ground));
   archive_optional(a, v.field_t, archive_number);
   archive_optional(a, v.recorded_um_per_px, archive_number);

@@ -17,7 +17,7 @@
 #include "study/motion/direction_text.h"
 #include "study/stats/statistics.h"
 #include "study/tracks/track_survey.h"
-#include "vision/cells/resting_cells.h"
+#include "vision/cells/stationary_cells.h"
 #include "vision/cells/tracker.h"
 #include "vision/cells/video_ground.h"
 #include "vision/files/grey_video.h"
@@ -188,12 +188,12 @@ void estimate_background(ResponseVideo& v, const GrayF& first, Measure measure, 
   o.to_s = to_s + 0.5 * v.view.frame_s;
   VideoBackground ground = read_video_background(v.file, o);
   v.view.background = background_of(ground);
-  // Cells at rest would be invisible in front of themselves, and simulated ones are not. If no cell is
+  // Stationary cells would be invisible in front of themselves, and simulated ones are not. If no cell is
   // visible in front of the background, nothing moves, which is an error later.
   if (measure == Measure::density && !v.view.detector().find(first).empty()) {
     const Polarity polarity = v.view.cells.polarity;
     const double contrast = cell_contrast(first, ground, polarity);
-    v.resting = remove_resting_cells(ground.light, v.view.cells.cell_px, contrast, polarity);
+    v.stationary = remove_stationary_cells(ground.light, v.view.cells.cell_px, contrast, polarity);
     v.view.background = background_of(ground);
   }
   v.ground = std::make_shared<const VideoBackground>(std::move(ground));
@@ -372,11 +372,11 @@ ResponseVideo survey_response(const ResponseInput& input, Boundary boundary, Mea
   if (measure == Measure::density && (segments.front().t0_s > input.part.from_s + 0.2 * survey.duration_s ||
                                       segments.back().t1_s < input.part.from_s + 0.8 * survey.duration_s))
     estimate_background(v, survey.first, measure, segments.front().t0_s, segments.back().t1_s, tick);
-  if (v.resting > 0)
-    v.notes.push_back(fmt::format(
-        "spots of the width of a cell that stay in one place: {}; they are counted as cells that are "
-        "not motile, as dirt would be",
-        v.resting));
+  if (v.stationary > 0)
+    v.notes.push_back(
+        fmt::format("stationary spots of the width of a cell: {}; they are counted as cells that are not "
+                    "motile, also if they are dirt",
+                    v.stationary));
 
   take_frames(v, boundary, measure, tick);
   return v;

@@ -188,7 +188,7 @@ export const studies: Record<string, string> = {
   'recorded picture scale {} um per pixel; {} um per pixel of the study is used': 'escala da imagem gravada {} um por pixel; usa-se a do estudo, {} um por pixel',
   '{} to {} s at {}': 'de {} a {} s a {}',
   'field segments were detected in the video; all results depend on them: {}': 'os segmentos do campo foram detectados no vídeo; todos os resultados dependem deles: {}',
-  'spots of the width of a cell that stay in one place: {}; they are counted as cells that are not motile, as dirt would be': 'pontos da largura de uma célula que permanecem em um lugar: {}; são contados como células que não são móveis, como sujeira também seria',
+  'stationary spots of the width of a cell: {}; they are counted as cells that are not motile, also if they are dirt': 'pontos parados da largura de uma célula: {}; são contados como células que não são móveis, mesmo que sejam sujeira',
   // study/identify
   'the measurement of the videos differs from the one with which the round was planned': 'a medição dos vídeos difere daquela com que a rodada foi planejada',
   'result with {} numbers, expected {}; delete the folder to compute all results again': 'resultado com {} números, esperam-se {}; apague a pasta para calcular todos os resultados novamente',

@@ -1,4 +1,4 @@
-#include "vision/cells/resting_cells.h"
+#include "vision/cells/stationary_cells.h"
 
 #include <doctest/doctest.h>
 
@@ -52,14 +52,14 @@ double largest_difference(const GrayF& a, const GrayF& b) {
 
 }  // namespace
 
-TEST_CASE("cells at rest are removed from a background, also those on the edge of a drop") {
+TEST_CASE("stationary cells are removed from a background, also those on the edge of a drop") {
   for (const Polarity polarity : {Polarity::dark, Polarity::bright}) {
     const double sign = polarity == Polarity::dark ? 1 : -1;
     const GrayF empty = empty_drop(sign);
     GrayF light = empty;
     add_cells(light, -sign * kContrast);
     CHECK(largest_difference(light, empty) > 0.14);
-    CHECK(remove_resting_cells(light, kWidth, kContrast, polarity) == std::size(kCells));
+    CHECK(remove_stationary_cells(light, kWidth, kContrast, polarity) == std::size(kCells));
     // Lines are 5 degrees apart and made of pixels: at their ends, 9 px from the cell, they are up to 0.4 px
     // and 0.5 px beside the edge, whose largest slope is 0.25 / (2 px sqrt(e)) = 0.076 per px.
     CHECK(largest_difference(light, empty) < 0.9 * 0.076);
@@ -69,6 +69,6 @@ TEST_CASE("cells at rest are removed from a background, also those on the edge o
 TEST_CASE("a background without cells does not change") {
   const GrayF empty = empty_drop(1);
   GrayF light = empty;
-  CHECK(remove_resting_cells(light, kWidth, kContrast, Polarity::dark) == 0);
+  CHECK(remove_stationary_cells(light, kWidth, kContrast, Polarity::dark) == 0);
   CHECK(light.px == empty.px);
 }

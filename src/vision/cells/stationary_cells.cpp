@@ -1,4 +1,4 @@
-#include "vision/cells/resting_cells.h"
+#include "vision/cells/stationary_cells.h"
 
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -9,7 +9,8 @@ namespace {
 constexpr int kDirections =
     36;  // of lines through a pixel: between two the edge of a drop stays within 0.5 px
 constexpr double kLongest = 5;  // cell widths: a cell is visible over about two, and it diffuses
-// Fraction of the contrast of a cell. A cell that rests for half of the time leaves no trace in a background.
+// Fraction of the contrast of a cell. A cell that is stationary for half of the time leaves no trace in a
+// background.
 constexpr double kFaintest = 0.25;
 
 // A line through the middle of a square of `side` pixels, symmetric about the middle.
@@ -25,7 +26,7 @@ cv::Mat line(int side, double angle) {
 
 }  // namespace
 
-std::size_t remove_resting_cells(GrayF& light, double cell_px, double contrast, Polarity polarity) {
+std::size_t remove_stationary_cells(GrayF& light, double cell_px, double contrast, Polarity polarity) {
   const bool bright = polarity == Polarity::bright;
   cv::Mat picture(light.height, light.width, CV_32F, light.px.data()), filled, along;
   const int side = 2 * int(std::lround(kLongest * cell_px / 2)) + 1;
