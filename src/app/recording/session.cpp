@@ -17,15 +17,12 @@ using namespace run_files;
 Session::Session(Scenario s, std::uint64_t seed, const RunOptions& o)
     : scenario_(std::move(s)), seed_(seed), options_(o), pool_(std::make_unique<Pool>(o.threads)) {
   scenario_.params.seed = seed;
+  // After the threads of the pool: the dynamic linker lets no thread start while it loads a library.
+  if (scenario_.record.video) load_video_libraries();
   simulation_ = std::make_unique<Simulation>(scenario_, seed, *pool_);
 }
 
 Session::~Session() = default;
-
-void Session::prepare(const Document& scenario) {
-  const Json record = scenario.root.value("record", Json::object());
-  if (!record.is_object() || record.value("video", Json(true)) != false) load_video_libraries();
-}
 
 Session Session::begin(const Scenario& s, std::uint64_t seed, const RunOptions& o) {
   Session session(s, seed, o);

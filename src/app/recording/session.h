@@ -25,9 +25,6 @@ struct RunOptions {
 /// an uninterrupted run.
 class Session {
  public:
-  /// Loads, in a thread, the libraries with which a run of this scenario will be recorded. To be called as
-  /// soon as the scenario is known; begin() does not require it.
-  static void prepare(const Document& scenario);
   /// Creates the directory and opens its files. All checks are done first: on Error(usage) nothing has been
   /// written.
   static Session begin(const Scenario& s, std::uint64_t seed, const RunOptions& o);

@@ -28,7 +28,6 @@ std::string command_with_seed(const SceneOptions& v, std::uint64_t seed) {
 int run(const SceneOptions& v, const Common& c) {
   std::string drop_note;
   const Document scene = read_scene(v, &drop_note);
-  Session::prepare(scene);
   const Scenario s = read_scenario(scene, builtin_parts());
   const std::uint64_t seed = s.params.seed.value_or(random_seed());
   Progress bar("simulating", !c.quiet && !c.json);
