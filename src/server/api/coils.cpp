@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <set>
+#include <string>
 
 #include "app/scenario/rig_file.h"
 #include "core/error.h"
@@ -18,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostCoils = 24, kLongestName = 60;
+constexpr std::size_t kMostCoils = 24, kMostListed = 500, kLongestName = 60;
 constexpr int kMostGrid = 64;
 constexpr double kLeastView = 1e-4, kMostView = 10;       // m
 constexpr double kLeastSample = 1e-6, kMostSample = 0.1;  // m
@@ -102,14 +104,31 @@ Json evaluate(const LabServices& lab, const Json& asked) {
   return field_json(coil_design(*field, options_of(asked, lab.parts)));
 }
 
-// A coil system of the workspace: as in its file, and with all defaults.
+// The coil systems in rigs/ of the workspace, and of the project of the gallery: those that are installed
+// with the program.
+Json list(const LabServices& lab) {
+  std::set<std::string> found;
+  for (const fs::path& project : {lab.workspace.root(), lab.workspace.gallery().parent_path()}) {
+    std::error_code ec;
+    for (const auto& e : fs::directory_iterator(project / kFolder, ec))
+      if (e.is_regular_file(ec) && e.path().extension() == ".toml" && found.size() < kMostListed)
+        found.insert(fmt::format("{}/{}", kFolder, e.path().filename().string()));
+  }
+  return found;
+}
+
+// A coil system of the workspace, or one that is installed with the program: as in its file, and with all
+// defaults.
 Json opened(const LabServices& lab, const std::string& name) {
-  const fs::path path = lab.workspace.existing(name);
+  const fs::path installed = lab.workspace.gallery().parent_path() / kFolder / fs::path(name).filename();
+  std::error_code ec;
+  const bool here = fs::exists(lab.workspace.inside(name), ec);
+  const bool is_installed = !here && fs::path(name).parent_path() == kFolder && fs::exists(installed, ec);
+  const fs::path path =
+      is_installed ? lab.workspace.scenario_file("../" + name) : lab.workspace.existing(name);
   const Document d = with_opened(path, name, [](const fs::path& file) { return read_toml(file); });
   const Document checked = system_of({{"system", d.root}});
-  return {{"file", lab.workspace.name_of(path)},
-          {"system", checked.root},
-          {"resolved", read_rig(d, lab.parts).resolved}};
+  return {{"file", name}, {"system", checked.root}, {"resolved", read_rig(d, lab.parts).resolved}};
 }
 
 // Names that are valid in every file system and need no quotes in a command.
@@ -144,8 +163,7 @@ void add_coil_routes(Routes& routes, const LabServices& lab) {
              [&lab](const auto& r, const auto&) { return json_answer(evaluate(lab, body_of(r))); });
   routes.add("POST", "/api/coils",
              [&lab](const auto& r, const auto&) { return json_answer(save(lab, body_of(r))); });
-  routes.add("GET", "/api/schema/coils",
-             [&lab](const auto&, const auto&) { return json_answer(rig_file_json_schema(lab.parts)); });
+  routes.add("GET", "/api/coils", [&lab](const auto&, const auto&) { return json_answer(list(lab)); });
   routes.add("GET", "/api/coils/**",
              [&lab](const auto&, const auto& names) { return json_answer(opened(lab, names[0])); });
 }
