@@ -62,7 +62,7 @@ double FieldRange::along(double angle) const {
     else if (d < -rounding)
       return 0;
   }
-  return most > 0 && least <= most + rounding ? most : 0;
+  return most > rounding && least <= most + rounding ? most : 0;
 }
 
 FieldRange::Weakest FieldRange::weakest() const {
