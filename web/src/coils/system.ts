@@ -40,14 +40,14 @@ export interface SizeKey {
   start: number;
 }
 const length = (key: string, start: number): SizeKey => ({ key, unit: 'm', least: 1e-6, most: 10, start });
-const turns = (start: number): SizeKey => ({ key: 'turns', unit: '', least: 1e-3, most: 1e6, start });
+const turns = (start: number): SizeKey => ({ ...length('turns', start), unit: '', least: 1e-3, most: 1e6 });
 /** The dimensions of each type, as in docs/reference/field.md. */
 export const kSizes: Record<CoilType, SizeKey[]> = {
   solenoid: [length('radius', 0.005), length('length', 0.04), turns(400)],
   loop: [length('radius', 0.01), turns(100)],
   thick_coil: [length('inner_radius', 0.005), length('outer_radius', 0.01), length('length', 0.02), turns(400)],
   helmholtz: [length('radius', 0.05), length('distance', 0.05), turns(100)],
-  dipole: [{ key: 'moment', unit: 'A m^2/A', least: -1e6, most: 1e6, start: 0.03 }, { ...length('radius', 0.001), least: 1e-9 }],
+  dipole: [{ ...length('moment', 0.03), unit: 'A m^2/A', least: -1e6, most: 1e6 }, { ...length('radius', 0.001), least: 1e-9 }],
 };
 export const kMostCoils = 24;
 const kStartCurrent = 0.5; // A, the largest current of a new coil
