@@ -68,9 +68,14 @@ double FieldRange::along(double angle) const {
 FieldRange::Weakest FieldRange::weakest() const {
   if (!known_) return {0, std::numeric_limits<double>::quiet_NaN()};
   if (normals_.empty()) return {};
-  Weakest least{0, std::numeric_limits<double>::infinity()};
-  for (const Vec2 n : normals_)
-    if (const double d = distance(n); d < least.tesla) least = {portable::atan2(n.y, n.x), d};
+  Weakest least{0, std::numeric_limits<double>::max()};
+  for (const Vec2 n : normals_) {
+    const double d = distance(n), turn = portable::atan2(n.y, n.x),
+                 angle = turn < 0 ? turn + 2 * portable::kPi : turn;
+    // Of equal directions, the first counter-clockwise from the right.
+    const double tie = kParallel * std::fabs(least.tesla);
+    if (d < least.tesla - tie || (d < least.tesla + tie && angle < least.angle)) least = {angle, d};
+  }
   // Parallel fields: the side has no length, and its distance is a rounding error.
   least.tesla = std::max(0.0, least.tesla);
   if (least.tesla < kParallel * norm(coil_.front())) least.tesla = 0;

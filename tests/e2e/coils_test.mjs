@@ -19,6 +19,7 @@ const plain = (t) => t.replaceAll('−', '-');
 const view = (plane) => page.locator(`[data-view="${plane}"]`);
 /** The position of a point of a view, in mm, on the screen. */
 async function at(plane, x, y) {
+  await view(plane).scrollIntoViewIfNeeded();
   const box = await view(plane).locator('svg').boundingBox(), scale = box.width / (2 * kHalf);
   return [box.x + box.width / 2 + x * scale, box.y + box.height / 2 - y * scale];
 }
@@ -60,7 +61,6 @@ await step('the page Analyse has a link to the editor, which starts without coil
 });
 
 await step('a coil is added with a double click, moved, turned and resized with the mouse', async () => {
-  await view('top').scrollIntoViewIfNeeded();
   await page.mouse.dblclick(...(await at('top', 30, 8)));
   await view('top').locator('[data-coil="coil 1"]').waitFor();
   await drag(await at('top', 30, 8), await at('top', 35, 0));
@@ -136,7 +136,6 @@ await step('the trap agrees with faba field null, for both polarities, and where
   await page.getByLabel('Polarity').selectOption('south');
   await compare('--polarity', 'south');
   await page.getByLabel('Polarity').selectOption('north');
-  await view('top').scrollIntoViewIfNeeded();
   await drag(await at('top', 0, 0), await at('top', 4, -3));
   const where = plain(await page.locator('.answer').textContent()).match(/\(([-\d.]+), ([-\d.]+)\) mm/);
   assert.ok(Math.abs(where[1] - 4) < 0.5 && Math.abs(Number(where[2]) + 3) < 0.5, `the cross is at ${where[0]}`);
@@ -165,7 +164,6 @@ await step('the verdict on the coils of the thesis: they hold IT-1 at the centre
 
 await step('a drag shows at least 20 pictures per second', async () => {
   const load = loadavg()[0];
-  await view('top').scrollIntoViewIfNeeded();
   const begin = await at('top', 35, 0);
   await page.mouse.move(...begin);
   await page.mouse.down();

@@ -20,11 +20,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostCoils = 24, kMostListed = 500, kLongestName = 60;
+constexpr std::size_t kMostCoils = 24, kMostCoilFiles = 500, kLongestCoilName = 60;
 constexpr int kMostGrid = 64;
 constexpr double kLeastView = 1e-4, kMostView = 10;       // m
 constexpr double kLeastSample = 1e-6, kMostSample = 0.1;  // m
-constexpr const char* kFolder = "rigs";
+constexpr const char* kCoilFolder = "rigs";
 
 double number_of(const Json& asked, const char* key, double least, double most, const char* unit) {
   if (!asked.contains(key) || !asked[key].is_number())
@@ -95,7 +95,9 @@ CoilDesignOptions options_of(const Json& asked, const Parts& parts) {
                 fmt::format("unknown polarity \"{}\"; it must be north or south", polarity.substr(0, 80)));
   o.polarity = polarity == "south" ? -1 : 1;
   o.sample = number_of(asked, "sample_m", kLeastSample, kMostSample, "m");
-  o.cell = field_response(asked.value("model", Json("dipole")), parts);
+  Document d;
+  d.root = {{"model", asked.value("model", Json("dipole"))}};
+  o.cell = field_response(parts.model.resolve(Node(d).child("model")));
   return o;
 }
 
@@ -110,9 +112,9 @@ Json list(const LabServices& lab) {
   std::set<std::string> found;
   for (const fs::path& project : {lab.workspace.root(), lab.workspace.gallery().parent_path()}) {
     std::error_code ec;
-    for (const auto& e : fs::directory_iterator(project / kFolder, ec))
-      if (e.is_regular_file(ec) && e.path().extension() == ".toml" && found.size() < kMostListed)
-        found.insert(fmt::format("{}/{}", kFolder, e.path().filename().string()));
+    for (const auto& e : fs::directory_iterator(project / kCoilFolder, ec))
+      if (e.is_regular_file(ec) && e.path().extension() == ".toml" && found.size() < kMostCoilFiles)
+        found.insert(fmt::format("{}/{}", kCoilFolder, e.path().filename().string()));
   }
   return found;
 }
@@ -120,10 +122,10 @@ Json list(const LabServices& lab) {
 // A coil system of the workspace, or one that is installed with the program: as in its file, and with all
 // defaults.
 Json opened(const LabServices& lab, const std::string& name) {
-  const fs::path installed = lab.workspace.gallery().parent_path() / kFolder / fs::path(name).filename();
+  const fs::path installed = lab.workspace.gallery().parent_path() / kCoilFolder / fs::path(name).filename();
   std::error_code ec;
   const bool here = fs::exists(lab.workspace.inside(name), ec);
-  const bool is_installed = !here && fs::path(name).parent_path() == kFolder && fs::exists(installed, ec);
+  const bool is_installed = !here && fs::path(name).parent_path() == kCoilFolder && fs::exists(installed, ec);
   const fs::path path =
       is_installed ? lab.workspace.scenario_file("../" + name) : lab.workspace.existing(name);
   const Document d = with_opened(path, name, [](const fs::path& file) { return read_toml(file); });
@@ -134,11 +136,12 @@ Json opened(const LabServices& lab, const std::string& name) {
 // Names that are valid in every file system and need no quotes in a command.
 void check_name(const std::string& name) {
   const auto plain = [](unsigned char c) { return (std::isalnum(c) && c < 128) || c == '-' || c == '_'; };
-  if (name.size() > kLongestName || name.starts_with('-') || !std::all_of(name.begin(), name.end(), plain))
+  if (name.size() > kLongestCoilName || name.starts_with('-') ||
+      !std::all_of(name.begin(), name.end(), plain))
     throw Error(Errc::usage, "name",
                 fmt::format("\"{}\" is not a valid name; it must have at most {} letters (a to z), digits, "
                             "- and _, and not begin with -",
-                            name.substr(0, 80), kLongestName));
+                            name.substr(0, 80), kLongestCoilName));
 }
 
 Json save(const LabServices& lab, const Json& asked) {
@@ -146,12 +149,12 @@ Json save(const LabServices& lab, const Json& asked) {
   check_name(name);
   const std::string text = to_toml(system_of(asked).root);
   (void)read_rig(parse_toml(text, name + ".toml"), lab.parts);
-  const std::string shown = fmt::format("{}/{}.toml", kFolder, name);
+  const std::string shown = fmt::format("{}/{}.toml", kCoilFolder, name);
   const fs::path file = lab.workspace.inside(shown);
   if (fs::exists(fs::symlink_status(file)) && !asked.value("replace", false))
     return {{"file", shown}, {"exists", true}};
   fs::create_directories(file.parent_path());
-  with_opened(file.parent_path(), kFolder,
+  with_opened(file.parent_path(), kCoilFolder,
               [&](const fs::path& folder) { write_file(folder / file.filename(), text); });
   return {{"file", shown}, {"exists", false}, {"toml", text}};
 }

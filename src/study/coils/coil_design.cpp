@@ -88,16 +88,13 @@ CoilDesign coil_design(const Field& field, const CoilDesignOptions& o) {
   return d;
 }
 
-FieldResponse field_response(const Json& model, const Parts& parts) {
-  Document d;
-  d.root = {{"model", model}};
-  const auto part = parts.model.resolve(Node(d).child("model"));
-  const auto response = part.make({Scale{}, 1e-3})->field_response();
+FieldResponse field_response(const ModelRegistry::PartType& model) {
+  const auto response = model.make({Scale{}, 1e-3})->field_response();
   if (!response)
     throw Error(Errc::usage, "model",
                 fmt::format("\"{}\" has no cells that the field turns; it must be a model with a magnetic "
                             "moment, such as \"dipole\"",
-                            part.type));
+                            model.type));
   return *response;
 }
 

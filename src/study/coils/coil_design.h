@@ -58,6 +58,6 @@ struct CoilDesign {
 CoilDesign coil_design(const Field& field, const CoilDesignOptions& options);
 
 /// How a typical cell of a model turns and swims. Throws Error(usage) if the model has no such cell.
-FieldResponse field_response(const Json& model, const Parts& parts);
+FieldResponse field_response(const ModelRegistry::PartType& model);
 
 }  // namespace faba

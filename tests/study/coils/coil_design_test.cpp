@@ -18,8 +18,12 @@ const std::filesystem::path kRigs = FABA_SCENES "/../rigs";
 constexpr double kPi = 3.14159265358979323846;
 
 std::unique_ptr<Field> rig(const char* file) { return read_rig(kRigs / file, builtin_parts()).make({}); }
-FieldResponse preset(const char* name) {
-  return field_response({{"type", "dipole"}, {"preset", name}}, builtin_parts());
+FieldResponse response_of(const std::string& model) {
+  const Document d = parse_toml("model = " + model, "test");
+  return field_response(builtin_parts().model.resolve(Node(d).child("model")));
+}
+FieldResponse preset(const std::string& name) {
+  return response_of("{ type = 'dipole', preset = '" + name + "' }");
 }
 CoilDesignOptions options(const char* cells = "IT-1") {
   CoilDesignOptions o;
@@ -35,8 +39,7 @@ TEST_CASE("the response of the presets is that of theory B2") {
   CHECK(it1.diffusion == doctest::Approx(0.54).epsilon(0.01));
   CHECK(it1.speed == 186e-6);
   CHECK(msr1.turning == doctest::Approx(736).epsilon(0.005));
-  CHECK_THROWS_AS((void)field_response("basic", builtin_parts()), Error);
-  CHECK_THROWS_AS((void)field_response({{"type", "dipole"}, {"moment", 1}}, builtin_parts()), Error);
+  CHECK_THROWS_AS((void)response_of("'basic'"), Error);
 }
 
 TEST_CASE("trap and zeros are those of `faba field null` and `faba field map`") {

@@ -18,13 +18,13 @@ export class History<T> {
   begin(now: T) {
     this.open ??= { state: now };
   }
-  /** The gesture ends; without a change it is no step. */
+  /** The gesture ends; a gesture without a change is not recorded. */
   end(now: T) {
     const before = this.open;
     this.open = null;
     if (before && before.state !== now) this.step(before.state);
   }
-  /** A change that is no gesture. */
+  /** A change outside of a gesture. */
   step(before: T) {
     if (this.open) return;
     this.past = [...this.past, before].slice(-kMost);
