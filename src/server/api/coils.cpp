@@ -86,6 +86,7 @@ CoilDesignOptions options_of(const Json& asked, const Parts& parts) {
   o.columns = count_of(asked, "columns");
   o.rows = count_of(asked, "rows");
   if (asked.value("side", false)) o.planes.push_back(CoilDesignOptions::Plane::side);
+  o.fast = asked.value("fast", false);
   const auto probe = position_of(asked, "probe_m", 3), target = position_of(asked, "target_m", 2);
   o.probe = {probe[0], probe[1], probe[2]};
   o.target = {target[0], target[1]};

@@ -81,7 +81,8 @@ CoilDesign coil_design(const Field& field, const CoilDesignOptions& o) {
     field.at(at, current, d.grids.back());
   }
   d.probe = field.at(o.probe, current);
-  d.zeros = field_zeros(field, current, o.width, o.height);
+  constexpr int kFastStarts = 7, kStarts = 21;
+  d.zeros = field_zeros(field, current, o.width, o.height, o.fast ? kFastStarts : kStarts);
   d.inside = coil_around(field, o.target);
   d.trap = null_at(field, o.target, o.polarity, d.limit);
   d.hold = hold_strength(field, d.trap, d.limit, o);

@@ -119,14 +119,12 @@ std::optional<FieldMap::Table> table_of(const Field& field, const FieldMapOption
 }  // namespace
 
 std::vector<FieldMap::Zero> field_zeros(const Field& field, const std::vector<double>& current, double width,
-                                        double height) {
+                                        double height, int starts) {
   std::vector<FieldMap::Zero> found;
   if (std::all_of(current.begin(), current.end(), [](double i) { return i == 0; })) return found;
-  constexpr int kStartsPerSide = 21;
-  for (int i = 0; i < kStartsPerSide; ++i)
-    for (int j = 0; j < kStartsPerSide; ++j) {
-      const Vec2 from{width * ((i + 0.5) / kStartsPerSide - 0.5),
-                      height * ((j + 0.5) / kStartsPerSide - 0.5)};
+  for (int i = 0; i < starts; ++i)
+    for (int j = 0; j < starts; ++j) {
+      const Vec2 from{width * ((i + 0.5) / starts - 0.5), height * ((j + 0.5) / starts - 0.5)};
       const Vec2 at = find_null(field, current, from);
       if (!(std::fabs(at.x) <= width / 2 && std::fabs(at.y) <= height / 2)) continue;
       if (std::any_of(found.begin(), found.end(),

@@ -50,6 +50,8 @@ export interface Request {
   polarity: 'north' | 'south';
   sample_m: number;
   model: unknown;
+  /** While a coil is dragged: zeros are searched from fewer points. */
+  fast: boolean;
 }
 
 export class Evaluator {
