@@ -38,7 +38,7 @@ export const coils: Record<string, string> = {
   // server/api/coils, study/coils/coil_design
   '"{}" has no cells that the field turns; it must be a model with a magnetic moment, such as "dipole"': '"{}" não tem células que o campo gira; deve ser um modelo com momento magnético, como "dipole"',
   '"{}" is not a valid name; it must have at most {} letters (a to z), digits, - and _, and not begin with -': '"{}" não é um nome válido; deve ter no máximo {} letras (de a a z), dígitos, - e _, e não começar com -',
-  'is a measured map, which the editor cannot draw; edit the file as text, and use the analyses of coil systems': 'é um mapa medido, que o editor não pode desenhar; edite o arquivo como texto e utilize uma análise de sistemas de bobinas',
+  'is a measured map, which the editor cannot draw; edit the file as text, and use the analyses of coil systems': 'é um mapa medido, que o editor não pode desenhar; edite o arquivo como texto e utilize os cálculos de sistemas de bobinas',
   'missing; it must be a number': 'ausente; deve ser um número',
   'missing; it must be a table with the coils': 'ausente; deve ser uma tabela com as bobinas',
   'must be a list of {} coordinates in m, each between {} and {} m': 'deve ser uma lista de {} coordenadas em m, cada uma entre {} e {} m',
