@@ -33,7 +33,9 @@ FieldRange::FieldRange(const Field& field, Vec3 at, std::span<const double> most
   double strongest = 0;
   for (std::size_t k = 0; k < b.size(); ++k) strongest = std::max(strongest, std::fabs(most[k]) * norm(b[k]));
   std::erase_if(coil_, [&](Vec2 c) { return !(norm(c) > kParallel * strongest); });
+  rounding_ = kParallel * norm(ambient_);
   for (const Vec2 c : coil_) {
+    rounding_ += kParallel * norm(c);
     const Vec2 n = (1 / norm(c)) * Vec2{-c.y, c.x};
     normals_.push_back(n);
     normals_.push_back(-1.0 * n);
@@ -51,7 +53,6 @@ double FieldRange::distance(Vec2 n) const {
 double FieldRange::along(double angle) const {
   if (!known_) return std::numeric_limits<double>::quiet_NaN();
   const Vec2 u = unit(angle);
-  const double rounding = kParallel * (distance(u) + norm(ambient_));
   double least = 0, most = distance(u);
   for (const Vec2 n : normals_) {
     const double cosine = dot(n, u), d = distance(n);
@@ -59,10 +60,10 @@ double FieldRange::along(double angle) const {
       most = std::min(most, d / cosine);
     else if (cosine < -kParallel)
       least = std::max(least, d / cosine);
-    else if (d < -rounding)
+    else if (d < -rounding_)
       return 0;
   }
-  return most > rounding && least <= most + rounding ? most : 0;
+  return most > rounding_ && least <= most + rounding_ ? most : 0;
 }
 
 FieldRange::Weakest FieldRange::weakest() const {
@@ -77,8 +78,7 @@ FieldRange::Weakest FieldRange::weakest() const {
     if (d < least.tesla - tie || (d < least.tesla + tie && angle < least.angle)) least = {angle, d};
   }
   // Parallel fields: the side has no length, and its distance is a rounding error.
-  least.tesla = std::max(0.0, least.tesla);
-  if (least.tesla < kParallel * norm(coil_.front())) least.tesla = 0;
+  if (least.tesla < rounding_) least.tesla = 0;
   return least;
 }
 

@@ -29,6 +29,7 @@ class FieldRange {
   std::vector<Vec2> coil_;     ///< field of every coil at its largest current, T; those with a field only
   std::vector<Vec2> normals_;  ///< of the sides of the polygon
   Vec2 ambient_;
+  double rounding_ = 0;  ///< error of the sums below, T
   bool known_ = true;
 };
 

@@ -90,7 +90,7 @@ CoilDesign coil_design(const Field& field, const CoilDesignOptions& o) {
 }
 
 FieldResponse field_response(const ModelRegistry::PartType& model) {
-  const auto response = model.make({Scale{}, 1e-3})->field_response();
+  const auto response = model.make({Scale{}, Scale{}.iteration})->field_response();
   if (!response)
     throw Error(Errc::usage, "model",
                 fmt::format("\"{}\" has no cells that the field turns; it must be a model with a magnetic "
