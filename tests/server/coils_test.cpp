@@ -121,8 +121,8 @@ TEST_CASE("S2: coil systems are read and written in the workspace only") {
     const std::string response = post(lab, "/api/coils", {{"name", name}, {"system", facing()}});
     CHECK(status_of(response) == 422);
   }
-  CHECK(status_of(post(lab, "/api/coils", {{"name", "x"}, {"system", {{"coil", Json::array({Json{{"type", "x"}}})}}}})) ==
-        422);
+  CHECK(status_of(post(lab, "/api/coils",
+                       {{"name", "x"}, {"system", {{"coil", Json::array({Json{{"type", "x"}}})}}}})) == 422);
   CHECK_FALSE(fs::exists(lab.folder() / "rigs/x.toml"));
   fs::create_directory_symlink(fs::temp_directory_path(), lab.folder() / "rigs");
   CHECK(status_of(post(lab, "/api/coils", {{"name", "faba-test"}, {"system", facing()}})) == 422);
