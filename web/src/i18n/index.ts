@@ -4,6 +4,7 @@
 import * as analyse from './analyse';
 import * as app from './app';
 import * as bench from './bench';
+import * as coils from './coils';
 import * as experiments from './experiments';
 import * as form from './form';
 import * as gallery from './gallery';
@@ -21,6 +22,7 @@ const en = {
   ...analyse.en,
   ...app.en,
   ...bench.en,
+  ...coils.en,
   ...experiments.en,
   ...form.en,
   ...gallery.en,
@@ -38,6 +40,7 @@ const pt = {
   ...analyse.pt,
   ...app.pt,
   ...bench.pt,
+  ...coils.pt,
   ...experiments.pt,
   ...form.pt,
   ...gallery.pt,
