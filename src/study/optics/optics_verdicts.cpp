@@ -43,9 +43,8 @@ std::string at_most(double value) {
 
 OpticsVerdict flow_verdict(const OpticsSetup& o, const OpticsPlan& p) {
   const FlowVerdict v{p.displacement_px, std::max(p.object_px, kSmallestSpot), {}};
-  OpticsVerdict out{PlannedMeasurement::flow,
-                    fmt::format("{:.3g} px between frames, width {:.2g} px", v.shift_px, v.object_px),
-                    {}};
+  OpticsVerdict out{.measurement = PlannedMeasurement::flow};
+  out.evidence = fmt::format("{:.3g} px between frames, width {:.2g} px", v.shift_px, v.object_px);
   if (v.follows()) return out;
   const std::string advice =
       fmt::format("use {} frames per second or more", at_least(o.frame_rate * v.shift_px / v.object_px));
@@ -118,10 +117,9 @@ void warn_spot(OpticsVerdict& v, const OpticsPlan& p) {
 }
 
 OpticsVerdict tracking_verdict(const OpticsSetup& o, const OpticsPlan& p) {
-  OpticsVerdict v{
-      PlannedMeasurement::tracking,
-      fmt::format("{:.3g} px between frames, mean distance {:.3g} px", p.displacement_px, p.spacing_px),
-      {}};
+  OpticsVerdict v{.measurement = PlannedMeasurement::tracking};
+  v.evidence =
+      fmt::format("{:.3g} px between frames, mean distance {:.3g} px", p.displacement_px, p.spacing_px);
   warn_crowding(v, o, p);
   warn_overlap(v, o, p);
   warn_short_tracks(v, o, p);
@@ -148,10 +146,9 @@ void warn_long_shift(OpticsVerdict& v, const OpticsSetup& o, const OpticsPlan& p
 
 OpticsVerdict response_verdict(const OpticsSetup& o, const OpticsPlan& p) {
   const double needed = kResponseWait + kResponsePart;
-  OpticsVerdict v{
-      PlannedMeasurement::response,
-      fmt::format("a swarm crosses the view in {:.3g} s; {:.2g} s are measured", p.crossing_time, needed),
-      {}};
+  OpticsVerdict v{.measurement = PlannedMeasurement::response};
+  v.evidence =
+      fmt::format("a swarm crosses the view in {:.3g} s; {:.2g} s are measured", p.crossing_time, needed);
   if (p.crossing_time < needed)
     v.warnings.push_back(
         {"view",
@@ -177,11 +174,10 @@ OpticsVerdict response_verdict(const OpticsSetup& o, const OpticsPlan& p) {
 }
 
 OpticsVerdict edge_verdict(const OpticsPlan& p) {
-  OpticsVerdict v{
-      PlannedMeasurement::edge,
+  OpticsVerdict v{.measurement = PlannedMeasurement::edge};
+  v.evidence =
       fmt::format("{:.0f} degrees of the edge are in view; the standard error of the radius is {:.2g} %",
-                  p.arc_deg, 100 * p.radius_error),
-      {}};
+                  p.arc_deg, 100 * p.radius_error);
   const char* advice = "use a lower magnification or a smaller drop";
   if (p.radius_error > kUncertainRadius)
     v.warnings.push_back({"radius", "the visible arc does not determine the radius well", v.evidence, advice,
@@ -196,12 +192,11 @@ OpticsVerdict edge_verdict(const OpticsPlan& p) {
 }
 
 OpticsVerdict swarm_verdict(const OpticsSetup& o, const OpticsPlan& p) {
-  OpticsVerdict v{
-      PlannedMeasurement::swarm,
-      fmt::format("a cell crosses the view in {:.2g} s; a swarm needs {:.2g} s to gather at the edge of "
-                  "the drop",
-                  p.crossing_time, p.gathering_time),
-      {}};
+  OpticsVerdict v{.measurement = PlannedMeasurement::swarm};
+  v.evidence = fmt::format(
+      "a cell crosses the view in {:.2g} s; a swarm needs {:.2g} s to gather at the edge of "
+      "the drop",
+      p.crossing_time, p.gathering_time);
   const double seen = p.crossing_time / p.gathering_time;
   if (seen >= kMostOfTheWay) return v;
   const bool poor = seen < kPartOfTheWay;

@@ -27,8 +27,8 @@ const char* title_of(PlannedMeasurement measurement);
 /// gives.
 struct OpticsVerdict {
   PlannedMeasurement measurement = PlannedMeasurement::flow;
-  std::string evidence;           ///< the figures that decide it, also if it is good
-  std::vector<Warning> warnings;  ///< the violated assumptions
+  std::string evidence = {};           ///< the figures that decide it, also if it is good
+  std::vector<Warning> warnings = {};  ///< the violated assumptions
 
   Quality quality() const { return quality_of(warnings); }
 };
