@@ -1,0 +1,191 @@
+#!/usr/bin/python3
+"""Compares the verdicts of `faba optics` with measurements in rendered videos whose truth is known. Writes bench/results/optics.md.
+Takes five minutes.
+
+    bench/optics.py [--program build/faba] [--seeds 2] [--first-seed 11] [--out bench/results]
+
+For each setting of objective, frame rate, speed and density, three videos are rendered with the scale, the point-spread function and the
+exposure of the plan:
+
+- tracking: cells in the entire view swim in random directions, 40 frames. Valid: the mean speed of `faba track` is within 10 % of the true
+  mean displacement of the cells in view.
+- flow: cells in the entire view swim in one direction, which is reversed after 1 s. Valid: `faba activity` detects by the optical flow,
+  without a given direction, a segment of motion after the reversal whose direction is within 10 degrees of the true one.
+- response: a swarm leaves the edge of a drop. Valid: the speed that `faba activity` measures is within 10 % of the mean of all cells.
+
+The mean speeds of the same cells are compared, so that their scatter cancels; the limit of 10 % is that of bench/ageing.py. The verdicts were
+developed with the seeds 1 and 2. A `good` verdict must be valid and a `poor` one must not be, with every seed; `doubtful` may be either. Exit
+status 1 if one disagrees.
+"""
+
+import argparse
+import json
+import math
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import h5py
+import numpy
+
+HERE = pathlib.Path(__file__).resolve().parent
+LIMIT, ANGLE_DEG = 0.1, 10
+VIEW = (640, 480)
+FRAMES, REVERSAL_S, AFTER_S = 40, 1, 1.6
+SETTLED_S = 0.3  # after the reversal: all cells have turned
+SPEED_SD = 45 / 186  # over the mean, IT-1 (thesis)
+LEAST_IN_SWARM = 30
+# Objective, frame rate (Hz), speed (um/s), cells per mm2.
+SETTINGS = (
+    ("10x", 15, 186, 1000), ("10x", 15, 186, 250), ("10x", 15, 186, 5000), ("10x", 8, 186, 1000), ("10x", 60, 186, 1000), ("10x", 120, 186, 1000),
+    ("10x", 15, 60, 1000), ("10x", 30, 60, 1000), ("10x", 120, 60, 1000), ("20x", 60, 186, 1000), ("20x", 240, 186, 1000), ("40x", 240, 186, 4000),
+    ("100x", 15, 186, 1000), ("100x", 240, 186, 20000),
+)  # fmt: skip
+SCENE = """title = "A planned experiment"
+duration = "{duration} s"
+
+[scale]
+um_per_px = {um_per_px}
+
+[camera]
+rate = "{rate} Hz"
+sensor = "frames"
+
+[microscope]
+psf_sd = "{psf_sd_um} um"
+depth_of_field = "{depth_of_field_um} um"
+exposure_time = "{exposure_time_s} s"
+
+[arena]
+type = "drop"
+radius_px = {radius_px}
+centre_px = [{centre_px}, 239.5]
+
+[[swarm]]
+count = {cells}
+model = {{ type = "dipole", preset = "IT-1", speed = "{speed} um/s", speed_sd = "{speed_sd} um/s" }}
+start = {start}
+
+[controller]
+type = "manual"
+field = ["{before} mT", "0 T"]
+
+[[controller.segment]]
+at = "{reversal} s"
+field = ["{after} mT", "0 T"]
+
+[record]
+video = true
+as_seen = true
+lossless = true
+flow = false
+tracks = true
+"""
+
+
+def faba(program, *words):
+    done = subprocess.run([str(program), *map(str, words)], capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(f"optics.py: faba {' '.join(map(str, words))}: {done.stderr}")
+    return done.stdout
+
+
+class Videos:
+    """Renders the videos of one setting."""
+
+    def __init__(self, program, folder, plan, rate, speed, density):
+        self.program, self.folder, self.plan, self.rate, self.speed, self.density = program, folder, plan, rate, speed, density
+
+    def render(self, seed, duration, start, before, after, cells, edge_px=None):
+        radius = self.plan["drop_radius_um"] / self.plan["um_per_px"]
+        centre = VIEW[0] / 2 - 0.5 if edge_px is None else edge_px + radius
+        scene = self.folder / "scene.toml"
+        scene.write_text(SCENE.format(**self.plan, duration=duration, rate=self.rate, radius_px=radius, centre_px=centre, cells=cells, start=start,
+                                      speed=self.speed, speed_sd=self.speed * SPEED_SD, before=before, after=after, reversal=REVERSAL_S))
+        faba(self.program, "run", scene, "--seed", seed, "--out", self.folder / "run", "--force", "--quiet")
+        with h5py.File(self.folder / "run/tracks.h5") as f:
+            return f["t_s"][:], f["position_px"][:].astype(float)
+
+    def everywhere(self):
+        """Number of cells in the drop."""
+        return round(self.density * math.pi * (self.plan["drop_radius_um"] / 1000) ** 2)
+
+    def measure(self, verb):
+        return json.loads(faba(self.program, verb, self.folder / "run", "--json", "--quiet"))
+
+    def tracking(self, seed):
+        """Relative error of the mean speed, None if none is stated."""
+        _, p = self.render(seed, FRAMES / self.rate, '"uniform"', 0, 0, self.everywhere())
+        found = self.measure("track")["speed"]
+        gap = found["interval_frames"]
+        seen = ((p > -0.5) & (p < numpy.array(VIEW) - 0.5)).all(axis=-1)
+        if found["mean_px_s"] is None or not gap:
+            return None
+        steps = numpy.linalg.norm(p[gap:] - p[:-gap], axis=-1)[seen[gap:] & seen[:-gap]]
+        return found["mean_px_s"] / (steps.mean() * self.rate / gap) - 1
+
+    def flow(self, seed):
+        """Error of the direction after the reversal, degrees; None if the flow has no direction."""
+        self.render(seed, REVERSAL_S + AFTER_S, '"uniform"', 1, -1, self.everywhere())
+        found = [s["direction_deg"] for s in self.measure("activity")["videos"][0]["segments"] if s["t1_s"] > REVERSAL_S + SETTLED_S]
+        return min((abs((d + 180) % 360 - 180) for d in found), default=None)
+
+    def response(self, seed):
+        """Relative error of the speed of a swarm that leaves the edge, None if none is measured."""
+        depth = 16 / self.plan["um_per_px"]
+        cells = max(LEAST_IN_SWARM, round(self.plan["cells_in_view"]))
+        t, p = self.render(seed, REVERSAL_S + AFTER_S, f'{{ type = "edge", direction = "180 deg", visible = true, depth_px = {depth} }}', 1, -1, cells, 80)
+        found = self.measure("activity")["videos"][0]["speed_px_per_s"]
+        later = p[t >= REVERSAL_S + SETTLED_S]
+        return None if found is None else found / ((later[1:, :, 0] - later[:-1, :, 0]).mean() * self.rate) - 1
+
+
+MEASUREMENTS = {"tracking": lambda e: e is not None and abs(e) <= LIMIT, "flow": lambda e: e is not None and e <= ANGLE_DEG,
+                "response": lambda e: e is not None and abs(e) <= LIMIT}  # fmt: skip
+
+
+def shown(measurement, error):
+    if error is None:
+        return "none"
+    return f"{error:.0f}°" if measurement == "flow" else f"{100 * error:+.0f} %"
+
+
+def main():
+    p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    p.add_argument("--program", type=pathlib.Path, default=HERE.parent / "build/faba", help="default build/faba")
+    p.add_argument("--seeds", type=int, default=2, help="number of videos of each kind, default 2")
+    p.add_argument("--first-seed", type=int, default=11, help="default 11")
+    p.add_argument("--out", type=pathlib.Path, default=HERE / "results", help="folder of the results, default bench/results")
+    o = p.parse_args()
+    rows, agree, differ, doubtful = [], 0, 0, 0
+    with tempfile.TemporaryDirectory() as name:
+        for objective, rate, speed, density in SETTINGS:
+            words = ["--objective", objective, "--frame-rate", f"{rate} Hz", "--speed", f"{speed} um/s", "--cells-per-mm2", density]
+            plan = json.loads(faba(o.program, "optics", *words, "--json"))
+            videos = Videos(o.program, pathlib.Path(name), plan, rate, speed, density)
+            verdicts = {v["measurement"]: v["quality"] for v in plan["verdicts"]}
+            row = f"| {objective} | {rate} | {speed} | {density} | {plan['displacement_px']:.3g} | {max(2, plan['object_px']):.2g} | {plan['spacing_px']:.3g} | {plan['crossing_time_s']:.2g} |"
+            for measurement, valid in MEASUREMENTS.items():
+                errors = [getattr(videos, measurement)(o.first_seed + k) for k in range(o.seeds)]
+                quality = verdicts[measurement]
+                right = all(valid(e) == (quality == "good") for e in errors)
+                doubtful += quality == "doubtful"
+                agree += quality != "doubtful" and right
+                differ += quality != "doubtful" and not right
+                row += f" {quality}{'' if right or quality == 'doubtful' else ' **differs**'} | {', '.join(shown(measurement, e) for e in errors)} |"
+            rows.append(row)
+            print(row, file=sys.stderr, flush=True)
+    text = "# Verdicts of `faba optics` against measurements in rendered videos\n\nGenerated by `bench/optics.py`, which defines the videos and the errors.\n\n"
+    text += f"{len(SETTINGS)} settings, three measurements, {o.seeds} videos each from seed {o.first_seed} on. Of the verdicts `good` and `poor`, {agree} agree with the measurement, {differ} differ; "
+    text += f"{doubtful} are `doubtful`. Goal: none differs, {'NOT MET' if differ else 'met'}.\n\n"
+    text += f"Valid: error of the speed of at most {100 * LIMIT:.0f} %, of the direction of at most {ANGLE_DEG}°; \"none\": no value is stated.\n\n"
+    text += "| objective | frames/s | speed (µm/s) | cells/mm² | displacement (px) | width (px) | distance (px) | crossing (s) | tracking | error | flow | error | response | error |\n"
+    text += "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n" + "\n".join(rows) + "\n"
+    print(text)
+    o.out.mkdir(parents=True, exist_ok=True)
+    (o.out / "optics.md").write_text(text)
+    return 1 if differ else 0
+
+
+sys.exit(main())
