@@ -9,7 +9,7 @@ TEST_CASE("optics: the setup of the thesis, as text and as JSON") {
   const TestFolder f;
   const Called c = faba_in(f.path, "optics");
   REQUIRE_MESSAGE(c.exit == 0, c.err);
-  CHECK(c.out.find("view          513 x 384.7 um") != std::string::npos);
+  CHECK(c.out.find("view          513 x 385 um") != std::string::npos);
   CHECK(c.out.find("Formation of a swarm          good") != std::string::npos);
   const auto j = faba_in(f.path, "optics --json").json();
   CHECK(j["um_per_px"].get<double>() == doctest::Approx(0.8015));

@@ -37,7 +37,7 @@ void print_setup(const OpticsSetup& o, const OpticsPlan& p) {
   fmt::print("camera        {} x {} px, {:g} frames per second, exposure {:.3g} ms\n", o.width_px,
              o.height_px, o.frame_rate, 1e3 * p.exposure_time);
   fmt::print("scale         {:.4g} um/px\n", p.um_per_px);
-  fmt::print("view          {:.4g} x {:.4g} um\n", 1e6 * p.view_width, 1e6 * p.view_height);
+  fmt::print("view          {:.3g} x {:.3g} um\n", 1e6 * p.view_width, 1e6 * p.view_height);
   fmt::print("cell          {:.3g} px; its picture is {:.2g} px wide\n", p.cell_px, p.object_px);
   fmt::print("density       {:.3g} cells in view, mean distance {:.3g} px\n", p.cells_in_view, p.spacing_px);
   fmt::print("displacement  {:.3g} px between frames, {:.2g} px during the exposure\n", p.displacement_px,
@@ -49,7 +49,10 @@ void print_setup(const OpticsSetup& o, const OpticsPlan& p) {
 
 void print_verdict(const OpticsVerdict& v) {
   fmt::print("{:<29} {:<9} {}\n", title_of(v.measurement), word_of(v.quality()), v.evidence);
-  for (const Warning& w : v.warnings) fmt::print("    {}\n", sentence(w));
+  for (Warning w : v.warnings) {
+    if (w.evidence == v.evidence) w.evidence.clear();
+    fmt::print("    {}\n", sentence(w));
+  }
 }
 
 int optics(const OpticsOptions& options, const Common& c) {
@@ -80,13 +83,15 @@ void add_optics(CLI::App& app, CommandLine& line) {
            "  faba optics --objective 100x\n"
            "  faba optics --objective 20x --frame-rate \"120 Hz\" --speed \"140 um/s\"");
   const Json schema = OpticsSetup::schema().json_schema();
-  for (const auto& [key, f] : schema["properties"].items()) {
-    const std::string doc =
-        key == "preset" ? "Magnification and numerical aperture of an objective; default: 10x"
-                        : f["description"].get<std::string>() + default_of(f.value("default", Json()));
-    CLI::Option* option = v->add_option(option_of(key), (*o)[key], doc)->check(not_empty);
-    if (key == "preset") option->check(one_of(f["enum"].get<std::vector<std::string>>()));
-  }
+  const Json& properties = schema["properties"];
+  v->add_option("--objective", (*o)["preset"],
+                "Magnification and numerical aperture of an objective; default: 10x")
+      ->check(one_of(properties["preset"]["enum"].get<std::vector<std::string>>()));
+  for (const auto& [key, f] : properties.items())
+    if (key != "preset")
+      v->add_option(option_of(key), (*o)[key],
+                    f["description"].get<std::string>() + default_of(f.value("default", Json())))
+          ->check(not_empty);
   v->callback([o, &line] { line.code = optics(*o, line.common); });
 }
 

@@ -11,10 +11,10 @@ namespace faba {
 namespace {
 
 constexpr double kWavelength =
-    0.55e-6;                        // m, assumed as in the rendered microscope: the maximum of white light
-constexpr double kAiry = 0.21;      // sd of the Gaussian nearest to an Airy disc, wavelength / NA [S33]
-constexpr double kRayleigh = 0.61;  // radius of the first minimum of an Airy disc, wavelength / NA
-constexpr double kWater = 1.33;     // refractive index of the medium
+    0.55e-6;                    // m, assumed as in the rendered microscope: the maximum of white light
+constexpr double kAiry = 0.21;  // sd of the Gaussian nearest to an Airy disc, wavelength / NA [S33]
+constexpr double kFirstMinimum = 0.61;     // radius of the first minimum of an Airy disc, wavelength / NA
+constexpr double kWater = 1.33;            // refractive index of the medium
 constexpr double kLongestExposure = 0.01;  // s, the default of the rendered microscope
 constexpr double kEdgeError = 1;           // px, of a point of the edge, independent between pixels; assumed
 
@@ -65,7 +65,7 @@ OpticsPlan optics_plan(const OpticsSetup& o) {
   p.displacement_px = o.speed / o.frame_rate / m_per_px;
   p.exposure_time = o.exposure_time.value_or(std::min(kLongestExposure, 0.5 / o.frame_rate));
   p.blur_px = o.speed * p.exposure_time / m_per_px;
-  p.resolution = kRayleigh * kWavelength / o.numerical_aperture;
+  p.resolution = kFirstMinimum * kWavelength / o.numerical_aperture;
   p.psf_sd = kAiry * kWavelength / o.numerical_aperture;
   p.depth_of_field = 4 * std::numbers::pi * kWater * p.psf_sd * p.psf_sd / kWavelength;
   add_object(p);

@@ -37,7 +37,7 @@ void describe_objective(Schema<OpticsSetup>& s) {
            .doc = "Image scale, um per px; default: that of the thesis, 0.8015 at 10x, times 10 over the "
                   "magnification",
            .source = "thesis, table 4.1: measured at 10x only; a fit to the same readings gives 0.9164 (A20)",
-           .title = "um per px"})
+           .title = "Image scale, um per px"})
       .add("pixel_size", &P::pixel_size,
            {.unit = "m",
             .min = 1e-7,
@@ -98,7 +98,7 @@ void describe_sample(Schema<OpticsSetup>& s) {
             .max = 1e7,
             .doc = "Cells in focus per square millimetre of the picture",
             .source = "assumed: 200 cells in view at 10x",
-            .title = "cells per mm2"})
+            .title = "Cells per square millimetre"})
       .add("drop_radius", &P::drop_radius,
            {.unit = "m",
             .min = 1e-6,

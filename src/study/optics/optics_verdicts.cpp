@@ -25,7 +25,7 @@ constexpr double kFullTrack =
 constexpr double kLongStreak = 3;  // widths: a longer object may be detected twice (theory H1)
 // Fewer cells do not determine the distribution of the displacements within a second
 // (bench/results/optics.md).
-constexpr double kFewCells = 30;
+constexpr double kFewInView = 30;
 // Displacement of the fastest cells over the mean: two standard deviations, 45 / 186 for IT-1 (thesis).
 constexpr double kFastest = 1 + 2 * 45.0 / 186;
 // Fraction of the mean way to the edge of the drop that a cell is in view. Assumed.
@@ -41,13 +41,26 @@ std::string at_most(double value) {
   return fmt::format("{:g}", std::floor(value / digit + 1e-9) * digit);
 }
 
+// The width of the picture of a cell for which the measurements detect it.
+double detected_width(const OpticsPlan& p) { return std::max(p.object_px, kSmallestSpot); }
+
+// Frame rate at which cells move by their width between frames. A shorter exposure makes them narrower.
+double flow_rate(OpticsSetup o) {
+  constexpr int kRepeats = 20;
+  for (int i = 0; i < kRepeats; ++i) {
+    const OpticsPlan p = optics_plan(o);
+    o.frame_rate *= p.displacement_px / detected_width(p);
+    if (o.exposure_time) o.exposure_time = std::min(*o.exposure_time, 1 / o.frame_rate);
+  }
+  return o.frame_rate;
+}
+
 OpticsVerdict flow_verdict(const OpticsSetup& o, const OpticsPlan& p) {
-  const FlowVerdict v{p.displacement_px, std::max(p.object_px, kSmallestSpot), {}};
+  const FlowVerdict v{p.displacement_px, detected_width(p), {}};
   OpticsVerdict out{.measurement = PlannedMeasurement::flow};
   out.evidence = fmt::format("{:.3g} px between frames, width {:.2g} px", v.shift_px, v.object_px);
   if (v.follows()) return out;
-  const std::string advice =
-      fmt::format("use {} frames per second or more", at_least(o.frame_rate * v.shift_px / v.object_px));
+  const std::string advice = fmt::format("use {} frames per second or more", at_least(flow_rate(o)));
   if (v.valid())
     out.warnings.push_back({"frame_rate",
                             "cells move by more than their width between frames: the optical flow is smaller "
@@ -165,10 +178,10 @@ OpticsVerdict response_verdict(const OpticsSetup& o, const OpticsPlan& p) {
          fmt::format("use {} frames per second or more", double(kLeastShiftFrames) / kResponsePart),
          Quality::poor});
   warn_long_shift(v, o, p);
-  if (p.cells_in_view < kFewCells)
+  if (p.cells_in_view < kFewInView)
     v.warnings.push_back({"sample",
                           "there are few cells in view: the distribution of their displacements is uncertain",
-                          fmt::format("{:.2g} cells; {:g} are needed", p.cells_in_view, kFewCells),
+                          fmt::format("{:.2g} cells; {:g} are needed", p.cells_in_view, kFewInView),
                           "use a lower magnification or more cells, or track single cells"});
   return v;
 }
@@ -221,7 +234,7 @@ const char* word_of(PlannedMeasurement measurement) {
     case PlannedMeasurement::response:
       return "response";
     case PlannedMeasurement::edge:
-      return "edge";
+      return "drop_edge";
     case PlannedMeasurement::swarm:
       return "swarm";
   }

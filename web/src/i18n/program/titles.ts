@@ -43,5 +43,5 @@ export const titles: Record<string, string> = {
   Width: 'Largura', Height: 'Altura', Exposure: 'Exposição', 'White balance': 'Balanço de branco', 'Frames/s': 'Quadros por segundo', Fast: 'Rápido', Port: 'Porta', Baud: 'Baud', Outputs: 'Saídas',
   Event: 'Evento', Frame: 'Quadro', 'Nominal image scale': 'Escala nominal da imagem', 'Source of the image scale': 'Origem da escala da imagem',
   // The planner of the optics.
-  Magnification: 'Ampliação', 'Numerical aperture': 'Abertura numérica', 'um per px': 'µm por px', 'Pixel size': 'Tamanho do pixel', 'Tube factor': 'Fator da lente de tubo', 'Frame rate': 'Taxa de quadros', 'cells per mm2': 'Células por mm²', 'Drop radius': 'Raio da gota',
+  Magnification: 'Ampliação', 'Numerical aperture': 'Abertura numérica', 'Image scale, um per px': 'Escala da imagem, µm por px', 'Pixel size': 'Tamanho do pixel', 'Tube factor': 'Fator da lente de tubo', 'Frame rate': 'Taxa de quadros', 'Cells per square millimetre': 'Células por milímetro quadrado', 'Drop radius': 'Raio da gota',
 };

@@ -3,7 +3,7 @@
 import type { Schema } from '../../form/schema';
 import type { Quality, Warning } from '../../quality/quality';
 
-export const kMeasurements = ['flow', 'tracking', 'response', 'edge', 'swarm'] as const;
+export const kMeasurements = ['flow', 'tracking', 'response', 'drop_edge', 'swarm'] as const;
 export interface Verdict {
   measurement: (typeof kMeasurements)[number];
   /** The figures that decide it. */
@@ -71,7 +71,7 @@ export function commandOf(values: Record<string, string>): string {
 export const propertiesOf = (schema: Schema, keys: readonly string[]) =>
   Object.fromEntries(keys.filter((key) => schema.properties?.[key]).map((key) => [key, schema.properties![key]]));
 
-/** Three significant digits, without an exponent for usual sizes. */
+/** Three significant digits, without an exponent up to a million. */
 export const digits = (value: number) => (value >= 1000 && value < 1e6 ? String(Math.round(value)) : String(Number(value.toPrecision(3))));
 
 /** 1, 2 or 5 times a power of ten, at most `length`: the length of a scale bar. */

@@ -1,14 +1,14 @@
 // The planner of the optics in the lab: immediate answers that equal those of the command, an address with the changed values, and
 // errors of the program.
 //
-//   node tests/e2e/optics_test.mjs --program build/faba --root . [--pictures FOLDER]
+//   node tests/e2e/optics_page_test.mjs --program build/faba --root . [--pictures FOLDER]
 
 import assert from 'node:assert/strict';
 import { address, complaints, faba, finish, page, shot, step, until } from './lab_page.mjs';
 
 const figure = (name) => page.locator(`[data-figure="${name}"]`).textContent();
 const quality = (measurement) => page.locator(`[data-measurement="${measurement}"]`).getAttribute('class').then((c) => c.split(' ').find((w) => ['good', 'doubtful', 'poor'].includes(w)));
-const verdicts = async () => Object.fromEntries(await Promise.all(['flow', 'tracking', 'response', 'edge', 'swarm'].map(async (m) => [m, await quality(m)])));
+const verdicts = async () => Object.fromEntries(await Promise.all(['flow', 'tracking', 'response', 'drop_edge', 'swarm'].map(async (m) => [m, await quality(m)])));
 /** The verdicts of the command for the same setup. */
 const planned = (...words) => Object.fromEntries(faba('optics', ...words).verdicts.map((v) => [v.measurement, v.quality]));
 const input = (label) => page.getByLabel(label, { exact: false }).first();
