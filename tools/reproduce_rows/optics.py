@@ -3,6 +3,7 @@
 import numpy as np
 
 from reproduce_rows import read
+from reproduce_rows.models import frames
 
 VIEW = (640, 480)
 FOLLOWED_S = 1.3  # after the field reversal: the end of the part in which `faba activity` measures the speed
@@ -56,3 +57,4 @@ def objectives(lab, found):
     found.within("100x: fraction of the swarm that is followed", seen[1], 0, 0.05, "a rendered swarm has left the view")
     found.true("10x: the speed of the swarm is measured", speeds[0] is not None, "`faba activity` of the rendered video")
     found.true("100x: no speed is measured", speeds[1] is None, "the swarm has left the view before")
+    found.show(*(frames(v, f"Rendered step response, {o}") for v, o in zip(videos, ("10x", "100x"))))

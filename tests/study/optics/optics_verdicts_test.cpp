@@ -88,7 +88,7 @@ TEST_CASE("tracking: cells that overlap, are smaller than a pixel, larger than t
   CHECK(verdict(small, PlannedMeasurement::tracking).warnings.at(0).aspect == "size");
   OpticsSetup large = hundred();
   large.frame_rate = 1000;
-  large.cell_diameter = 8e-6;
+  large.cell_diameter = 9e-6;
   CHECK(quality(large, PlannedMeasurement::tracking) == Quality::poor);
   OpticsSetup smeared;
   smeared.cells_per_mm2 = 50;
@@ -119,6 +119,6 @@ TEST_CASE("edge: the arc and the error of its radius") {
   o.drop_radius = 0.88e-3;
   CHECK(verdict(o, PlannedMeasurement::edge).warnings.at(0).aspect == "arc");
   CHECK(quality(hundred(), PlannedMeasurement::edge) != Quality::good);
-  o.drop_radius = 20e-3;
+  o.drop_radius = 40e-3;
   CHECK(quality(o, PlannedMeasurement::edge) == Quality::poor);
 }
