@@ -54,6 +54,7 @@ await step('a value out of range is refused at its input, and a contradiction by
   await input('Frame rate').fill('240 Hz');
   await input('Exposure time').fill('10 ms');
   await page.getByRole('alert').filter({ hasText: 'must be at most the frame period' }).waitFor();
+  assert.match(complaints.splice(0).join(), /422/); // the browser logs the refused request
   await input('Exposure time').fill('1 ms');
   await until(async () => (await page.getByRole('alert').count()) === 0, 'the error disappears');
 });
@@ -64,5 +65,4 @@ await step('in Portuguese', async () => {
   await page.getByText('As células deixam o campo de visão antes de um enxame se formar.').waitFor();
 });
 
-assert.deepEqual(complaints.filter((c) => !/422/.test(c)), []);
 await finish();
