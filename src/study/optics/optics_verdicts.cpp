@@ -162,15 +162,20 @@ OpticsVerdict response_verdict(const OpticsSetup& o, const OpticsPlan& p) {
   OpticsVerdict v{.measurement = PlannedMeasurement::response};
   v.evidence =
       fmt::format("a swarm crosses the view in {:.3g} s; {:.2g} s are measured", p.crossing_time, needed);
+  // A swarm that is in view for the smallest number of frames is measured, but its fast cells have left.
+  const double least = kResponseWait + double(kLeastShiftFrames) / o.frame_rate;
+  const bool gone = p.crossing_time < std::min(least, needed);
   if (p.crossing_time < needed)
-    v.warnings.push_back(
-        {"view",
-         "cells that leave the edge of a drop have crossed the view before their speed and the "
-         "responding fraction are measured",
-         v.evidence,
-         fmt::format("use a magnification of {} or less, or more pixels",
-                     at_most(o.magnification * p.crossing_time / needed)),
-         Quality::poor});
+    v.warnings.push_back({"view",
+                          gone ? "cells that leave the edge of a drop have crossed the view before their "
+                                 "speed and the responding "
+                                 "fraction are measured"
+                               : "fast cells that leave the edge of a drop have crossed the view before the "
+                                 "end of the measurement",
+                          v.evidence,
+                          fmt::format("use a magnification of {} or less, or more pixels",
+                                      at_most(o.magnification * p.crossing_time / needed)),
+                          gone ? Quality::poor : Quality::doubtful});
   if (kResponsePart * o.frame_rate < double(kLeastShiftFrames))
     v.warnings.push_back(
         {"frames", "the measured part of the response has too few frames",

@@ -112,6 +112,22 @@ TEST_CASE("response: time in view, frames, displacement and number of cells") {
   CHECK(verdict(slow, PlannedMeasurement::response).warnings.at(0).aspect == "frames");
 }
 
+TEST_CASE(
+    "response: a swarm in view for a part of the measurement is doubtful, one that has left before it is "
+    "poor") {
+  OpticsSetup o;
+  o.frame_rate = 240;
+  o.cells_per_mm2 = 20000;
+  const double start = kResponseWait + 6 / o.frame_rate, end = kResponseWait + kResponsePart;
+  for (const auto& [crossing, expected] : {std::pair{0.99 * start, Quality::poor},
+                                           {1.01 * start, Quality::doubtful},
+                                           {0.99 * end, Quality::doubtful},
+                                           {1.01 * end, Quality::good}}) {
+    o.um_per_px = 1e6 * crossing * o.speed / o.width_px;
+    CHECK(quality(o, PlannedMeasurement::response) == expected);
+  }
+}
+
 TEST_CASE("edge: the arc and the error of its radius") {
   OpticsSetup o;
   o.drop_radius = 0.4e-3;

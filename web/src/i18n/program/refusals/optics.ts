@@ -13,6 +13,7 @@ export const optics: Record<string, string> = {
   'cells move by more than their width between frames: the optical flow is smaller than their displacement, and its direction may be wrong': 'as células se deslocam mais que a sua largura entre quadros: o fluxo óptico é menor que o deslocamento delas, e a sua direção pode estar errada',
   'cells move by more than twice their width between frames: the optical flow has no direction and is an index of activity only': 'as células se deslocam mais que o dobro da sua largura entre quadros: o fluxo óptico não tem direção e é só um índice de atividade',
   'cells that leave the edge of a drop have crossed the view before their speed and the responding fraction are measured': 'as células que deixam a borda de uma gota já atravessaram o campo de visão antes de se medirem a sua velocidade e a fração que responde',
+  'fast cells that leave the edge of a drop have crossed the view before the end of the measurement': 'células rápidas que deixam a borda de uma gota já atravessaram o campo de visão antes do fim da medição',
   'dilute the sample to {} cells per mm2': 'dilua a amostra para {} células por mm²',
   'exposure_time is {} s; it must be at most the frame period, {} s': 'exposure_time é {} s; deve ser no máximo o período de quadro, {} s',
   'give --size, or use a lower magnification': 'informe --size, ou use uma ampliação menor',
