@@ -14,7 +14,7 @@ exposure of the plan:
 - response: a swarm leaves the edge of a drop. Valid: the speed that `faba activity` measures is within 10 % of the mean of all cells.
 
 The mean speeds of the same cells are compared, so that their scatter cancels; the limit of 10 % is that of bench/ageing.py. The verdicts were
-developed with the seeds 1 and 2. A measurement is valid at a setting if it is valid in every video there. It must be
+developed with the seeds 1 and 2, except that of the response at 40x: it was `poor` and differed with the seeds 11 and 12, and is `doubtful` since. A measurement is valid at a setting if it is valid in every video there. It must be
 valid where the verdict is `good`, and must not be where it is `poor`; `doubtful` may be either. Exit status 1 if one disagrees.
 """
 
