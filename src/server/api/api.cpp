@@ -50,6 +50,7 @@ Api::Api(const Workspace& workspace, JobList& jobs, fs::path pictures, fs::path 
   add_video_routes(routes_, lab_);
   add_bench_routes(routes_, lab_);
   add_coil_routes(routes_, lab_);
+  add_optics_routes(routes_);
 }
 
 WebResponse Api::answer(const WebRequest& r) {
