@@ -3,6 +3,7 @@
 
 import * as analyse from './analyse';
 import * as app from './app';
+import * as assistant from './assistant';
 import * as bench from './bench';
 import * as experiments from './experiments';
 import * as form from './form';
@@ -20,6 +21,7 @@ import * as workbench from './workbench';
 const en = {
   ...analyse.en,
   ...app.en,
+  ...assistant.en,
   ...bench.en,
   ...experiments.en,
   ...form.en,
@@ -37,6 +39,7 @@ const en = {
 const pt = {
   ...analyse.pt,
   ...app.pt,
+  ...assistant.pt,
   ...bench.pt,
   ...experiments.pt,
   ...form.pt,
