@@ -76,7 +76,9 @@ TEST_CASE("a copy of a scene may differ in the tables of its coils only") {
   const auto save = [&](const std::string& name, const std::string& toml, const char* of = "bench") {
     return lab.ask("POST /api/scenes", json, Json{{"name", name}, {"copy_of", of}, {"toml", toml}}.dump());
   };
-  const std::string coil = "[[rig.coil]]\npolarity = -1\n[[rig.coil]]\ntable = [[0, -0.5], [5, 0.5]]\n";
+  const std::string coil =
+      "[[rig.coil]]\nchannel = 'a'\npolarity = -1\n[[rig.coil]]\nchannel = 'b'\ntable = [[0, -0.5], [5, "
+      "0.5]]\n";
   const std::string two = scene + coil;
   const std::string a = save("measured", two);
   INFO(a);
@@ -90,10 +92,12 @@ TEST_CASE("a copy of a scene may differ in the tables of its coils only") {
     CHECK(status_of(save(bad, two)) >= 400);
   }
   const std::string driver = scene + "driver = { type = 'nidaqmx', library = '/tmp/other.so' }\n" + coil;
-  for (const std::string& other : {driver, scene + "[[rig.coil]]\npolarity = 3\n", std::string("not toml"),
-                                   scene + "[arena]\ntype = 'box'\n"}) {
+  for (const std::string& other :
+       {driver, scene + "[[rig.coil]]\nchannel = 'a'\npolarity = 3\n[[rig.coil]]\nchannel = 'b'\n",
+        std::string("not toml"), scene + "[arena]\ntype = 'box'\n"}) {
     INFO(other);
     CHECK(status_of(save("other", other)) >= 400);
     CHECK_FALSE(fs::exists(lab.folder() / "scenes/other.toml"));
+    CHECK(save("other", other).find(lab.folder().string()) == std::string::npos);
   }
 }

@@ -47,7 +47,7 @@ describe('the coil table', () => {
     expect(coilToml(coil)).toContain('gain = "0.2 A/V"');
     expect(coilToml(coil)).not.toContain('polarity');
   });
-  test('replaces the tables of a scene and nothing else', () => {
+  test('replaces only the tables of the coils in a scene', () => {
     const scene = '# A bench\ntitle = "x"\n\n[rig]\n\n[[rig.coil]]   # first\nchannel = "0"\ntable = [\n  [0.0, -0.5],\n  [5.0, 0.5]\n]\n[[ rig . coil ]]\nchannel = "1"\n\n[rig.guard]  # limits\nmax_slew = "1 A/s"\n';
     expect(withCoils(scene, coilsToml([coil]))).toBe(`# A bench\ntitle = "x"\n\n[rig]\n\n[rig.guard]  # limits\nmax_slew = "1 A/s"\n\n${coilToml(coil)}\n`);
     expect(withCoils('[rig]\n', 'X\n')).toBe('[rig]\n\nX\n');

@@ -129,11 +129,16 @@ Json save_copy(const LabServices& lab, const Json& asked) {
                 "not found in the folder of the lab: the scenes of the gallery are those of the program; "
                 "copy the table of the coils into a scene of yours");
   if (fs::exists(file, ec)) throw Error(Errc::usage, shown, "exists; choose another name");
-  const Document copy = parse_toml(toml, file.string());
-  if (without_coils(copy.root) != without_coils(read_toml(original).root))
-    throw Error(Errc::usage, shown,
-                "differs from its original in more than [[rig.coil]]; open the scene again");
-  (void)read_scenario(copy, lab.parts);
+  try {
+    const Document copy = parse_toml(toml, file.string());
+    if (without_coils(copy.root) != without_coils(read_toml(original).root))
+      throw Error(Errc::usage, shown,
+                  "differs from its original in more than [[rig.coil]]; open the scene again");
+    (void)read_scenario(copy, lab.parts);
+  } catch (const Error& e) {  // pages know files by their names in the workspace
+    const std::string where = e.where(), full = file.string();
+    throw Error(e.code(), where.starts_with(full) ? shown + where.substr(full.size()) : where, e.reason());
+  }
   write_file(file, toml);
   return {{"name", name}, {"file", shown}};
 }
