@@ -17,6 +17,7 @@ struct CameraFrame {
   std::uint64_t number = 0;  ///< counts frames taken by the camera; gaps are frames lost in transfer
   double t = 0;              ///< s, mid-exposure, on the clock of monotonic_now()
   ImageRef image;
+  bool corrupt = false;  ///< arrived damaged: the picture is not valid
 };
 
 /// Camera controls that can be set during operation.
@@ -59,7 +60,8 @@ class Camera {
   virtual int height() const = 0;               ///< px
   virtual double rate() const = 0;              ///< Hz; 0 if unknown
   virtual bool waits() const { return false; }  ///< no frame is lost while none is read, as with a file
-  virtual std::uint64_t corrupt() const { return 0; }  ///< damaged frames skipped so far
+  /// Damaged frames so far of which no picture is left, so that read() skipped them.
+  virtual std::uint64_t corrupt() const { return 0; }
   virtual std::vector<CameraControl> controls() { return {}; }
   /// Throws Error(usage), with the control's name, if the camera does not have the control or rejects the
   /// value.

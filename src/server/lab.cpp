@@ -92,6 +92,14 @@ class Pages {
                               {"what", e.reason()}}));
     }
   }
+  /// `steering` is called with the page that steers, now and after every change.
+  void on_steering(std::function<void(std::uint64_t)> steering) {
+    {
+      const std::lock_guard lock(mutex_);
+      steering_changed_ = std::move(steering);
+    }
+    broadcast_pages();
+  }
   void jobs_changed() { broadcast(jobs_message()); }
   void tell(const Json& news) { broadcast(json_text(news)); }
 
@@ -202,6 +210,7 @@ class Pages {
     {
       const std::lock_guard lock(mutex_);
       j = {{"say", "pages"}, {"pages", sockets_.size()}, {"steering", steering_}};
+      if (steering_changed_) steering_changed_(steering_);
     }
     broadcast(json_text(j));
   }
@@ -212,6 +221,7 @@ class Pages {
   mutable std::mutex mutex_;
   std::map<std::uint64_t, PageSocketRef> sockets_;
   std::uint64_t steering_ = 0;  ///< id of the steering page; 0: none
+  std::function<void(std::uint64_t)> steering_changed_;
 };
 
 }  // namespace
@@ -248,6 +258,7 @@ void serve_lab(const LabOptions& o) {
     live.start(d, seed, [](const Json&) {});
   }
   Api api(workspace, jobs, folder.path(), o.pages, [&](const Json& news) { watchers.tell(news); });
+  watchers.on_steering([&](std::uint64_t page) { api.steering(page); });
 
   std::jthread watch([&](const std::stop_token& s) {
     while (!s.stop_requested() && !(o.stop && o.stop->load()))

@@ -54,6 +54,12 @@ class RawClient {
       text.append(buffer, std::size_t(n));
     }
   }
+  /// The bytes of one reception; empty if the connection is closed.
+  std::string some() {
+    char buffer[65536];
+    const ssize_t n = ::recv(fd_, buffer, sizeof buffer, 0);
+    return n > 0 ? std::string(buffer, std::size_t(n)) : "";
+  }
   /// True if the server closes the connection before the timeout.
   bool is_closed() {
     char buffer[4096];

@@ -135,6 +135,7 @@ bool BenchSession::run() {
   Recorder recorder(all);
   Loop& loop = *m.loop;
   loop.sinks = {&recorder};
+  if (Sink* shown = m.bench->shown()) loop.sinks.push_back(shown);
   const double duration = m.scenario.params.duration;
   const auto finish = [&] {
     m.most_behind = recorder.most_behind();
@@ -208,7 +209,7 @@ Manifest BenchSession::describe() const {
   all.bench = Manifest::Bench{.camera = s.rig->camera.type,
                               .driver = s.rig->driver.type,
                               .frames_dropped = m.rig->dropped(),
-                              .frames_corrupt = m.rig->feed().camera().corrupt(),
+                              .frames_corrupt = m.rig->feed().corrupt(),
                               .delay_ms = 1e3 * s.rig->params.delay.value_or(0),
                               .arrival = in_ms(arrival),
                               .command = in_ms(command),

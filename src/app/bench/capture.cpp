@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <optional>
 #include <vector>
 
+#include "app/bench/memory.h"
 #include "app/sinks/run_files.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -145,14 +145,8 @@ std::unique_ptr<Store> store_for(const CaptureJob& job, const Camera& camera) {
 }
 
 bool memory_is_low() {
-  std::ifstream in("/proc/meminfo");
-  double total = 0, available = 0, kib = 0;
-  std::string name, unit;
-  while (available == 0 && in >> name >> kib >> unit) {
-    if (name == "MemTotal:") total = kib;
-    if (name == "MemAvailable:") available = kib;
-  }
-  return available < kMinimumMemory * total;
+  const Memory m = memory_of_machine();
+  return double(m.available) < kMinimumMemory * double(m.total);
 }
 
 /// Selects the frames of a camera that are kept.
@@ -186,7 +180,8 @@ void report_progress(const CaptureJob& job, const Captured& result) {
 Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job) {
   const std::unique_ptr<Store> store = store_for(job, *camera);
   CameraFeed feed(camera, camera->waits() ? CameraFeed::Keep::each : CameraFeed::Keep::all,
-                  job.buffered ? SIZE_MAX : kBacklog);
+                  job.buffered ? SIZE_MAX : kBacklog,
+                  job.only_corrupt ? CameraFeed::Which::all : CameraFeed::Which::good);
   Captured result;
   std::vector<CameraFrame> waiting;
   FrameSelection selection(job);
@@ -217,8 +212,12 @@ Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job) {
       if (job.time > 0 && t >= job.time) break;
       ++result.taken;
       result.duration = t;
-      if (selection.keeps(result.taken, t)) keep(std::move(f));
+      if (f.corrupt == job.only_corrupt && selection.keeps(result.taken, t)) keep(std::move(f));
+      result.dropped = feed.dropped();
+      result.corrupt = feed.corrupt();
+      result.buffered = waiting.size();
       report_progress(job, result);
+      if (job.live) job.live(result);
       if (job.frames > 0 && result.taken >= job.frames) break;
       if (job.buffered && result.taken % kMemoryEvery == 0 && memory_is_low()) {
         result.memory_full = true;
@@ -229,7 +228,7 @@ Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job) {
     failure = e;
   }
   result.dropped = feed.dropped();
-  result.corrupt = camera->corrupt();
+  result.corrupt = feed.corrupt();
   for (CameraFrame& f : waiting) {
     store->put(f, f.t - began);
     f.image.reset();

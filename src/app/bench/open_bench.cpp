@@ -10,17 +10,28 @@
 
 namespace faba {
 
-OpenBench::OpenBench(Scenario& s, std::uint64_t seed, Open what) {
+class OpenBench::Shown final : public Sink {
+ public:
+  Shown(BenchWatcher& watcher, BenchRig& rig) : watcher_(watcher), rig_(rig) {}
+  void take(const Tick& t) override { watcher_.cycle(t, rig_.coils()->report()); }
+
+ private:
+  BenchWatcher& watcher_;
+  BenchRig& rig_;
+};
+
+OpenBench::OpenBench(Scenario& s, std::uint64_t seed, Open what, BenchDevices devices)
+    : devices_(std::move(devices)) {
   (void)BenchControls(s);  // throws for an unsuitable scenario before a device is opened
   const Parts& parts = builtin_parts();
   setup_ = *s.rig;
   if (setup_.needs_bench()) {
-    process_ = std::make_unique<BenchProcess>(s, seed);
-    setup_ = setup_.at(process_->at(), parts.camera, parts.driver);
+    if (!devices_.simulated) devices_.simulated = std::make_shared<BenchProcess>(s, seed);
+    setup_ = setup_.at(devices_.simulated->at(), parts.camera, parts.driver);
   }
   frame_period_ = s.frame_period();
   if (what == Open::coils) return;
-  camera_ = setup_.camera.make({});
+  camera_ = devices_.camera ? devices_.camera : std::shared_ptr<Camera>(setup_.camera.make({}));
   if (camera_->rate() > 0) s.camera.rate = camera_->rate();
   frame_period_ = s.frame_period();
   const Frame frame = s.arena.make({s.si_scale()})->frame();
@@ -35,6 +46,7 @@ BenchRig& OpenBench::rig(const std::filesystem::path& log) {
   const BenchRig::Params p{setup_.params.camera_timeout,
                            camera_->waits() ? CameraFeed::Keep::each : CameraFeed::Keep::newest};
   rig_ = std::make_unique<BenchRig>(camera_, std::make_unique<GuardLink>(guard_setup(log)), p);
+  if (devices_.watcher) shown_ = std::make_unique<Shown>(*devices_.watcher, *rig_);
   return *rig_;
 }
 
@@ -83,7 +95,7 @@ BenchCheck check_bench(Scenario s, std::uint64_t seed, double seconds) {
   if (frames > 1) c.rate_hz = double(frames - 1) / (seen.t - first);
   c.frames = frames;
   c.dropped = rig.dropped();
-  c.corrupt = bench.camera()->corrupt();
+  c.corrupt = rig.feed().corrupt();
   c.age_s = seen.age;
   c.delay_s = delay;
   c.guard = word(guard.state);

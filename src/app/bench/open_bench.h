@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/bench/bench_controls.h"
-#include "app/bench/bench_process.h"
+#include "app/bench/bench_watcher.h"
 #include "rig/bench/bench_rig.h"
 #include "rig/bench/device_list.h"
 
@@ -19,11 +19,13 @@ class OpenBench {
   /// the rate of the camera. Throws Error(usage) for an unsuitable scenario, if possible before a device is
   /// opened; Error(device).
   enum class Open { all, coils };
-  OpenBench(Scenario& s, std::uint64_t seed, Open what = Open::all);
+  OpenBench(Scenario& s, std::uint64_t seed, Open what = Open::all, BenchDevices devices = {});
 
   /// Camera and coils as a rig, created by the first call with the log of the guard in `log` (empty: no log).
   /// Throws Error(device).
   BenchRig& rig(const std::filesystem::path& log);
+  /// Shows the control cycles of rig() to the watcher, if there is one; otherwise null.
+  Sink* shown() { return shown_.get(); }
   /// Throws Error(device) if the coil driver cannot be opened; for a check before files are written.
   void try_coils() const;
   /// Latency from mid-exposure of a picture to the command of the scenario's parts on this machine, s: median
@@ -37,11 +39,13 @@ class OpenBench {
   }
 
  private:
-  std::unique_ptr<BenchProcess> process_;
+  class Shown;
+  BenchDevices devices_;
   RigSetup setup_;
   double frame_period_ = 0;  ///< s
   std::shared_ptr<Camera> camera_;
   std::unique_ptr<BenchRig> rig_;
+  std::unique_ptr<Sink> shown_;
 };
 
 /// Result of check_bench().

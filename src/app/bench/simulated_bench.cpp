@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <condition_variable>
 #include <deque>
@@ -140,12 +141,13 @@ class Sender {
     connected_ = true;
   }
   bool connected() const { return connected_; }
-  void offer(std::uint64_t number, double t, ImageRef image) {
+  void offer(std::uint64_t number, double t, ImageRef image, bool corrupt) {
     const std::lock_guard lock(mutex_);
     if (image_ && connected_) ++unfetched_;
     number_ = number;
     t_ = t;
     image_ = std::move(image);
+    corrupt_ = corrupt;
     came_.notify_all();
   }
   std::uint64_t unfetched() const { return unfetched_; }
@@ -166,7 +168,7 @@ class Sender {
       }
       if (!image_) continue;
       const ImageRef image = std::exchange(image_, nullptr);
-      const BenchFrame head{number_, t_, image->width, image->height, rate_};
+      const BenchFrame head{number_, t_, image->width, image->height, rate_, corrupt_ ? 1U : 0U};
       if (!socket) continue;
       lock.unlock();
       const bool sent = socket.write(&head, sizeof head, kFrameTimeout) &&
@@ -184,6 +186,7 @@ class Sender {
   std::uint64_t number_ = 0;
   double t_ = 0;
   ImageRef image_;
+  bool corrupt_ = false;
   std::atomic<bool> connected_ = false;
   std::atomic<std::uint64_t> unfetched_ = 0;
   std::jthread thread_;
@@ -197,6 +200,13 @@ Scenario in_real_time(Scenario s) {
   for (const Swarm& swarm : s.swarms) cells += double(swarm.params.count);
   s.simulation.longest = std::max(kLongestStep, cells / kCellStepsPerSecond);
   return s;
+}
+
+// The lower half of the picture is lost, as when a part of the transfer is.
+ImageRef damaged(const Gray8& picture) {
+  auto out = std::make_shared<Gray8>(picture);
+  std::fill(out->px.begin() + std::ptrdiff_t(out->px.size() / 2), out->px.end(), std::uint8_t(0));
+  return out;
 }
 
 void accept_client(BenchSocket client, Coils& coils, Sender& sender) {
@@ -263,7 +273,9 @@ SimulatedBench::Summary SimulatedBench::run(Scenario s, std::uint64_t seed, Pool
     ++summary.frames;
     const double t = began + seen.t;
     const bool frozen = bench.freeze_after && seen.t >= *bench.freeze_after;
-    if (!frozen) sender.offer(seen.frame + 1, t, seen.image);
+    const std::uint64_t number = seen.frame + 1;
+    const bool corrupt = bench.corrupt_one_of > 0 && number % std::uint64_t(bench.corrupt_one_of) == 0;
+    if (!frozen) sender.offer(number, t, corrupt ? damaged(*seen.image) : seen.image, corrupt);
   }
   summary.unfetched = sender.unfetched();
   return summary;

@@ -147,6 +147,7 @@ void gather(OpenBench& bench, const Scenario& s, const Schedule& schedule, Recor
     Estimate estimate;
   } newest;
   loop.sinks = {&newest};
+  if (Sink* shown = bench.shown()) loop.sinks.push_back(shown);
   const Urgent urgent;
   run(loop, std::numeric_limits<std::uint64_t>::max(), [&] {
     if (loop.next == 1) rig.arm();
@@ -180,7 +181,7 @@ std::vector<RecordedResponse> record_step_responses(const StepResponseJob& job) 
   if (std::filesystem::exists(job.run.out / run_files::kScenario, ec))
     throw Error(Errc::usage, job.run.out.string(), "is the directory of a run; choose another --out");
   StudyFile study(job.run.out, p, job.experiment);
-  OpenBench bench(scenes.gather, job.seed);
+  OpenBench bench(scenes.gather, job.seed, OpenBench::Open::all, job.devices);
   scenes.respond.camera.rate = scenes.gather.camera.rate;
   bench.try_coils();
   std::filesystem::create_directories(job.run.out, ec);

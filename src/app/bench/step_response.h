@@ -22,6 +22,7 @@ struct StepResponseJob {
   std::uint64_t seed = 1;
   std::string experiment;  ///< name of the drop; empty: a number
   RunOptions run;          ///< `out`: the study's directory; progress is in ms of the schedule
+  BenchDevices devices = {};  ///< that are open already
   std::function<void(const RecordedResponse&)>
       done;  ///< called after each; its directory is then complete except for a report
 };

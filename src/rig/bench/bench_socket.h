@@ -10,7 +10,7 @@ namespace faba {
 // clients, each with one connection that starts with a BenchHello. All processes come from one build and run
 // on one machine.
 
-inline constexpr std::uint32_t kBenchVersion = 1;
+inline constexpr std::uint32_t kBenchVersion = 2;
 inline constexpr std::size_t kBenchOutputs = 16;
 
 struct BenchHello {
@@ -41,6 +41,7 @@ struct BenchFrame {
   double t = 0;              ///< s, mid-exposure
   std::int32_t width = 0, height = 0;
   double rate = 0;  ///< Hz
+  std::uint32_t corrupt = 0;
 };
 
 /// A connection, closed by the destructor. Every call times out after `patience` s.

@@ -13,10 +13,10 @@ constexpr auto kThreadExitTimeout = std::chrono::seconds(1);  // timeout for the
 
 }  // namespace
 
-CameraFeed::CameraFeed(std::shared_ptr<Camera> camera, Keep keep, std::size_t most)
+CameraFeed::CameraFeed(std::shared_ptr<Camera> camera, Keep keep, std::size_t most, Which which)
     : camera_(std::move(camera)),
       shared_(std::make_shared<Shared>()),
-      thread_([c = camera_, s = shared_, keep, most] { read_frames(c, s, keep, most); }) {}
+      thread_([c = camera_, s = shared_, keep, most, which] { read_frames(c, s, keep, most, which); }) {}
 
 CameraFeed::~CameraFeed() {
   {
@@ -35,7 +35,7 @@ CameraFeed::~CameraFeed() {
 }
 
 void CameraFeed::read_frames(const std::shared_ptr<Camera>& camera, const std::shared_ptr<Shared>& s,
-                             Keep keep, std::size_t most) {
+                             Keep keep, std::size_t most, Which which) {
   const Urgent urgent;
   std::optional<std::uint64_t> last;
   std::exception_ptr failure;
@@ -46,6 +46,8 @@ void CameraFeed::read_frames(const std::shared_ptr<Camera>& camera, const std::s
       if (s->stop) break;
       if (last && frame.number > *last + 1) s->lost += frame.number - *last - 1;
       last = frame.number;
+      if (frame.corrupt) ++s->corrupt;
+      if (frame.corrupt && which == Which::good) continue;
       if (frame.t < s->since) {
         s->behind = monotonic_now() - frame.t;
         continue;
@@ -102,6 +104,11 @@ std::uint64_t CameraFeed::taken() const {
 double CameraFeed::behind() const {
   const std::lock_guard lock(shared_->mutex);
   return shared_->behind;
+}
+
+std::uint64_t CameraFeed::corrupt() const {
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->corrupt + camera_->corrupt();
 }
 
 std::uint64_t CameraFeed::dropped() const {

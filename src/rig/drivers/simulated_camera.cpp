@@ -48,6 +48,7 @@ class SimulatedCamera final : public Camera {
     out.number = next_.number;
     out.t = next_.t;
     out.image = std::move(image);
+    out.corrupt = next_.corrupt != 0;
     return true;
   }
   void interrupt() noexcept override { interrupted_ = true; }

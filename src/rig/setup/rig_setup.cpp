@@ -59,7 +59,9 @@ Schema<BenchParams> BenchParams::schema() {
   return Schema<BenchParams>("bench", "Electronics and simulated faults of a simulated bench")
       .include(&BenchParams::amplifier, Amplifier::schema())
       .add("freeze_after", &BenchParams::freeze_after,
-           {.unit = "s", .min = 0, .max = 1e6, .doc = "Time at which the camera hangs; default: never"});
+           {.unit = "s", .min = 0, .max = 1e6, .doc = "Time at which the camera hangs; default: never"})
+      .add("corrupt_one_of", &BenchParams::corrupt_one_of,
+           {.min = 0, .max = 1e6, .doc = "One of this number of frames arrives damaged; 0: none"});
 }
 
 Schema<StepResponseParams> StepResponseParams::schema() {

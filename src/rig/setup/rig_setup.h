@@ -11,6 +11,7 @@ namespace faba {
 struct BenchParams {
   Amplifier::Params amplifier;
   std::optional<double> freeze_after;  ///< s
+  int corrupt_one_of = 0;              ///< one of this number of frames arrives damaged; 0: none
   static Schema<BenchParams> schema();
 };
 

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "server/api/responses.h"
+#include "server/bench/bench_recordings.h"
 #include "server/embedded_page.h"
 #include "server/json_text.h"
 
@@ -20,9 +21,9 @@ Api::Api(const Workspace& workspace, JobList& jobs, fs::path pictures, fs::path 
          std::function<void(const Json&)> news)
     : pages_(std::move(pages)),
       experiments_(workspace,
-                   [news = std::move(news)](const std::string& name) {
-                     news({{"say", "experiment"}, {"name", name}});
-                   }),
+                   [news](const std::string& name) { news({{"say", "experiment"}, {"name", name}}); }),
+      bench_([news = std::move(news)](const Json& state) { news({{"say", "bench"}, {"state", state}}); },
+             [this](const BenchRecording& r) { keep_recording(experiments_, r); }),
       trash_(workspace),
       runs_(workspace, jobs, trash_),
       lab_{workspace, jobs,  std::move(pictures), builtin_parts(), bench_, experiments_, imports_,

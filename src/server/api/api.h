@@ -12,6 +12,9 @@ class Api {
   Api(const Workspace& workspace, JobList& jobs, std::filesystem::path pictures, std::filesystem::path pages,
       std::function<void(const Json&)> news);
 
+  /// The page that steers, which alone may arm the coils of a bench; 0: none.
+  void steering(std::uint64_t page) { bench_.permits().steering(page); }
+
   /// Never throws: errors become responses with a status and {"where", "what"}.
   WebResponse answer(const WebRequest& r);
 
@@ -19,8 +22,8 @@ class Api {
   WebResponse page_file(const std::string& name) const;
 
   std::filesystem::path pages_;
-  BenchView bench_;
   ExperimentStore experiments_;
+  BenchConsole bench_;
   Imports imports_{experiments_};
   Trash trash_;
   RunCatalogue runs_;

@@ -1,9 +1,9 @@
 #pragma once
 #include <filesystem>
 
-#include "app/bench/bench_view.h"
 #include "app/scenario/parts.h"
 #include "server/api/routes.h"
+#include "server/bench/bench_console.h"
 #include "server/experiments/experiment_store.h"
 #include "server/experiments/imports.h"
 #include "server/files/trash.h"
@@ -20,7 +20,7 @@ struct LabServices {
   /// A private folder for rendered images and uploads, removed when the lab ends.
   std::filesystem::path pictures;
   const Parts& parts;
-  BenchView& bench;
+  BenchConsole& bench;
   ExperimentStore& experiments;
   Imports& imports;
   RunCatalogue& runs;

@@ -216,6 +216,21 @@ void ExperimentStore::add_video(const std::string& name, const std::string& file
   write_locked(name, std::move(d));
 }
 
+void ExperimentStore::add_recording(const std::string& name, Json video, int polarity) {
+  const std::lock_guard lock(mutex_);
+  Document d = document(name);
+  if (const std::string drop = video.value("drop", ""); !drop.empty()) {
+    if (!d.root["drop"].is_array()) d.root["drop"] = Json::array();
+    if (!has_drop(d, drop)) d.root["drop"].push_back({{"name", drop}});
+    for (Json& known : d.root["drop"])
+      if (known.value("name", "") == drop && polarity != 0 &&
+          known.value("polarity", "unknown") == std::string("unknown"))
+        known["polarity"] = polarity > 0 ? "north" : "south";
+  }
+  videos_of(d).push_back(std::move(video));
+  write_locked(name, std::move(d));
+}
+
 VideoEntry ExperimentStore::video(const std::string& name, const std::string& file) const {
   const std::lock_guard lock(mutex_);
   Document d = document(name);

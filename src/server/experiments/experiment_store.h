@@ -37,6 +37,9 @@ class ExperimentStore {
   /// Adds a video. `file`: relative to the folder of the experiment, or absolute; `drop`: its drop, ignored
   /// if the experiment has no such drop.
   void add_video(const std::string& name, const std::string& file, const std::string& drop);
+  /// Adds a recording of the bench. Its drop is added if the experiment does not have it; `polarity` of its
+  /// cells (+1 north-seeking, -1 south-seeking, 0 not known) is noted unless the drop states one.
+  void add_recording(const std::string& name, Json video, int polarity);
   /// The entry of a video. Throws Error(input) if the experiment has no such video.
   VideoEntry video(const std::string& name, const std::string& file) const;
   /// Removes the entry of a video, if it has one. The file stays.

@@ -18,7 +18,7 @@ struct CaptureVerb {
   std::optional<std::string> every, time;
   std::string format;
   std::uint64_t frames = 0, one_of = 1;
-  bool buffered = false;
+  bool buffered = false, only_corrupt = false;
 };
 
 int rig_capture(const CaptureVerb& v, const Common& c) {
@@ -29,6 +29,7 @@ int rig_capture(const CaptureVerb& v, const Common& c) {
   job.frames = v.frames;
   job.one_of = v.one_of;
   job.buffered = v.buffered;
+  job.only_corrupt = v.only_corrupt;
   const auto time_option = [](const std::string& text, const char* option) {
     const double value = quantity_of(text, "s", option, "500 ms");
     if (!(value > 0))
@@ -103,6 +104,8 @@ void add_rig_capture(CLI::App& rig, CommandLine& line) {
                 "Keep one frame per time interval, such as \"500 ms\"; default: frames as by --one-of")
       ->excludes(one_of);
   v->add_flag("--buffered", o->buffered, "Keep pictures in memory and write them at the end, for slow disks");
+  v->add_flag("--only-corrupt", o->only_corrupt,
+              "Keep only frames that arrived damaged, to examine a camera or its cable");
   v->add_flag("--force", o->run.force, "Replace an existing video");
   v->callback([o, &line] { line.code = rig_capture(*o, line.common); });
 }

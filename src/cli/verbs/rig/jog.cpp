@@ -11,6 +11,7 @@
 #include <limits>
 #include <optional>
 
+#include "app/bench/coil_jog.h"
 #include "app/bench/open_bench.h"
 #include "cli/command_line.h"
 #include "cli/options/bench.h"
@@ -25,7 +26,7 @@ struct JogVerb {
   std::string step = "50 mA";
 };
 
-constexpr double kCycle = 0.02;    // s between requests
+constexpr double kCycle = CoilJog::kCycle;
 constexpr double kPipedKey = 0.1;  // minimum s between keys that do not come from a terminal
 
 void print_keys(std::size_t coils) {
@@ -85,15 +86,6 @@ class Keyboard {
   double next_key_time_ = 0;  ///< s
 };
 
-// Moves `current` towards `requested`, limited by the slew rate of the guard.
-void approach(std::vector<double>& current, const std::vector<double>& requested, std::optional<double> slew,
-              double dt) {
-  for (std::size_t k = 0; k < current.size(); ++k) {
-    const double max_change = slew ? *slew * dt : std::numeric_limits<double>::infinity();
-    current[k] += std::clamp(requested[k] - current[k], -max_change, max_change);
-  }
-}
-
 // Cuts a text to one line of the terminal.
 std::string cut_to_terminal(std::string line) {
   winsize size{};
@@ -130,39 +122,28 @@ int rig_jog(const JogVerb& v, const Common& c) {
                             largest));
   const OpenBench bench(s, s.params.seed.value_or(1), OpenBench::Open::coils);
   GuardLink coils(bench.guard_setup({}));
-  const std::vector<double> limits = s.rig->max_current();
-  std::vector<double> requested(limits.size(), 0.0);
-  std::vector<double> current = requested;  // requested from the guard, limited in slew rate
-  double last = monotonic_now();            // s, time of the previous request
+  CoilJog jog(coils, *s.rig);
   std::size_t selected = 0;
   std::string shown;
   Keyboard keys;
   const bool verbose = !c.quiet && !c.json;
-  if (verbose) print_keys(limits.size());
+  if (verbose) print_keys(jog.coils());
   while (!stop_requested().load()) {
     const char key = keys.next();
-    double& value = requested[selected];
     if (key == 'q') break;
-    if (key >= '1' && key <= '9' && std::size_t(key - '1') < requested.size())
-      selected = std::size_t(key - '1');
-    if (key == 'U' || key == '+') value = std::min(limits[selected], value + step);
-    if (key == 'D' || key == '-') value = std::max(-limits[selected], value - step);
-    if (key == 'P') value = limits[selected];
-    if (key == 'N') value = -limits[selected];
-    if (key == '0') value = 0;
-    if (key == ' ') std::fill(requested.begin(), requested.end(), 0.0);
-    const GuardReport report = coils.report();
-    if (key == 'r' && report.state == CoilGuard::State::tripped) coils.reset();
-    if (report.state != CoilGuard::State::armed) {
-      std::fill(requested.begin(), requested.end(), 0.0);  // there is no current until a key is pressed
-      std::fill(current.begin(), current.end(), 0.0);
-      if (key == 'a' && report.state == CoilGuard::State::disarmed) coils.arm();
-    }
-    const double now = monotonic_now();
-    approach(current, requested, s.rig->guard.max_slew, now - last);
-    last = now;
-    coils.request(current, now);
-    const std::string line = line_of(coils.report(), requested, selected);
+    if (key >= '1' && key <= '9' && std::size_t(key - '1') < jog.coils()) selected = std::size_t(key - '1');
+    const double value = jog.requested(selected), limit = jog.limit(selected);
+    if (key == 'U' || key == '+') jog.request(selected, value + step);
+    if (key == 'D' || key == '-') jog.request(selected, value - step);
+    if (key == 'P') jog.request(selected, limit);
+    if (key == 'N') jog.request(selected, -limit);
+    if (key == '0') jog.request(selected, 0);
+    if (key == ' ') jog.all_zero();
+    const CoilGuard::State state = coils.report().state;
+    if (key == 'r' && state == CoilGuard::State::tripped) jog.reset();
+    if (key == 'a' && state == CoilGuard::State::disarmed) jog.arm();
+    const GuardReport report = jog.step();
+    const std::string line = line_of(report, jog.requested(), selected);
     if (line == shown || !verbose) continue;
     fmt::print("{}{}{}", keys.terminal() ? "\r\033[K" : "", keys.terminal() ? cut_to_terminal(line) : line,
                keys.terminal() ? "" : "\n");
@@ -170,7 +151,7 @@ int rig_jog(const JogVerb& v, const Common& c) {
     shown = line;
   }
   if (keys.terminal() && verbose) fmt::print("\n");
-  coils.disarm();
+  jog.disarm();
   const GuardReport g = coils.report();
   if (c.json) fmt::print("{}\n", Json{{"state", word(g.state)}, {"reason", g.reason.data()}}.dump());
   if (stop_requested().load()) return int(Errc::interrupted);

@@ -13,6 +13,7 @@
 #include "core/child.h"
 #include "core/error.h"
 #include "study/pages/quality_output.h"
+#include "study/pages/reported_bench_run.h"
 #include "study/pages/run_report.h"
 #include "study/plot/markup.h"
 #include "study/quality/scale_warning.h"
@@ -54,25 +55,10 @@ int rig_run(const RigRunVerb& v, const Common& c) {
   o.stop = &stop_requested();
   const auto bench = std::make_shared<OpenBench>(s, seed);
   BenchSession session = BenchSession::begin(s, bench, seed, o);
-  bool complete = false;
-  try {
-    complete = session.run();
-  } catch (const Error& e) {
-    std::error_code ec;  // the recorded data get a report, too
-    const bool recorded = std::filesystem::exists(session.dir() / run_files::kManifest, ec);
-    try {
-      if (recorded) write_run_report(session.dir(), run_info(session.manifest()), session.series());
-    } catch (const Error&) {  // the error that stopped the run is reported instead
-    }
-    if (!recorded) throw;
-    throw Error(e.code(), e.where(),
-                fmt::format("{}; the recorded data are in {}", e.reason(), session.dir().string()));
-  }
+  const bool complete = run_with_report(session);
   bar.clear();
   const Manifest& manifest = session.manifest();
   const Series series = session.series();
-  write_run_report(session.dir(), run_info(manifest), series);
-  if (complete) session.complete();
   const Metrics metrics = control_metrics(series, manifest.setpoint_tolerance_px, manifest.setpoints);
   if (!c.quiet)
     for (const std::string& note : manifest.notes)
