@@ -14,6 +14,9 @@ describe('the state', () => {
     bench.take(open());
     bench.take({ open: 'bench', opening: 3, armed: true });
     expect(bench.now).toMatchObject({ armed: true, histogram: [1] });
+    bench.take(open({ coils: [{ current_a: 0.1, sensed_a: 0.1, max_a: 0.4 }] }));
+    bench.take({ open: 'bench', opening: 3, coils: [] });
+    expect(bench.now.coils).toEqual([{ current_a: 0, sensed_a: null, max_a: 0.4 }]);
     bench.take({ open: 'bench', opening: 4, armed: false });
     expect(bench.now.histogram).toBeUndefined();
   });
@@ -158,7 +161,7 @@ describe('jogging', () => {
   });
   test('has no current after a fault until it is reset', async () => {
     let state = 'armed';
-    const { session, sets } = make((b) => ({ coils: b.currents_a.map((a: number) => ({ current_a: a, sensed_a: null, max_a: 0.4 })), guard: { ...guard, state } }));
+    const { session, sent, sets } = make((b) => ({ coils: b.currents_a.map((a: number) => ({ current_a: a, sensed_a: null, max_a: 0.4 })), guard: { ...guard, state } }));
     await session.start(1, 'p');
     session.set(0, 0.1);
     await wait(10);
@@ -169,7 +172,8 @@ describe('jogging', () => {
     await wait(2 * kBeat);
     expect(sets().at(-1).currents_a).toEqual([0, 0]);
     state = 'armed';
-    await session.reset('q');
+    await session.reset(1, 'q');
+    expect(sent.find(([w]) => w === 'jog/reset')![1]).toEqual({ session: 's', page: 1, permit: 'q' });
     session.set(0, 0.1);
     await wait(1);
     expect(sets().at(-1).currents_a).toEqual([0.1, 0]);

@@ -36,7 +36,10 @@ export class Bench {
   /** News of the server lack what only the console shows; it keeps the previous values of the same opening. */
   take(short: BenchState) {
     ++this.news;
-    this.set(short.open !== null && short.opening === this.now.opening ? { ...this.now, ...short } : short);
+    if (short.open === null || short.opening !== this.now.opening) return this.set(short);
+    // Without an activity, news have no coils.
+    const coils = short.coils?.length ? short.coils : this.now.coils?.map((c) => ({ ...c, current_a: 0, sensed_a: null }));
+    this.set({ ...this.now, ...short, coils });
   }
   /** The connection was lost: the state of the coils is not known from now on. */
   lost() {

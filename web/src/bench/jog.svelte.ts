@@ -76,9 +76,9 @@ export class JogSession {
     void this.ask('off', {}).catch(() => {});
   }
   /** Resets a fault of the guard and arms again. */
-  async reset(permit: string) {
+  async reset(page: number, permit: string) {
     this.wanted = this.wanted.map(() => 0);
-    await this.ask('jog/reset', { session: this.session, permit });
+    await this.ask('jog/reset', { session: this.session, page, permit });
     if (this.state === 'tripped') this.state = 'live';
   }
 

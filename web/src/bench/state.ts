@@ -1,6 +1,7 @@
 // The state of a bench as the program sends it, and what the page derives from it. web/protocol.md has the format.
 
 import type { Word } from '../i18n';
+import { addressOf } from '../router.svelte';
 
 export interface CameraControl {
   name: string;
@@ -37,6 +38,8 @@ export interface Activity {
   progress: number | null;
   left_s: number | null;
   armed: boolean;
+  /** It was asked to end. */
+  stopping?: boolean;
   out: string;
   phase?: 'gathering' | 'waiting' | 'recording' | '';
   index?: number;
@@ -55,9 +58,8 @@ export interface FinishedActivity {
   ok: boolean;
   what: string;
   out: string;
-  url: string;
-  experiment: string | null;
-  frames?: number;
+  experiment?: string | null;
+  taken?: number;
   kept?: number;
   dropped?: number;
   corrupt?: number;
@@ -111,6 +113,15 @@ export function coilsWord(s: BenchState, known: boolean): CoilsWord {
 }
 export const kCoilsIcons: Record<CoilsWord, string> = { off: '○', armed: '⚡', fault: '⚠', unknown: '?' };
 export const kindWord = (kind: ActivityKind) => `bench.kind.${kind}` as Word;
+
+/** The experiment in whose folder a recording is; empty for another place. */
+export const experimentOf = (f: FinishedActivity) => f.experiment ?? /^experiments\/([^/]+)\//.exec(f.out)?.[1] ?? '';
+/** The address of a recording; empty for an activity without one. */
+export function addressOfResult(f: FinishedActivity): string {
+  if (!f.out || f.kind === 'jog') return '';
+  if (f.kind === 'capture') return addressOf('video', [], { file: f.out, ...(experimentOf(f) ? { experiment: experimentOf(f) } : {}) });
+  return f.kind === 'run' ? addressOf('runs', [f.out.replace(/^runs\//, '')]) : addressOf('runs');
+}
 
 /** The number of a coil for the user, from 1. */
 export const coilNumber = (index: number) => index + 1;
