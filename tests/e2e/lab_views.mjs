@@ -23,7 +23,15 @@ export async function makeViews() {
   await page.locator('[data-read="swarm"]').waitFor();
 }
 
+/** Opens the simulated bench, unless it is open: without requests of a page it closes after some time. */
+const openBench = () =>
+  page.evaluate(async () => {
+    if ((await (await fetch('/api/bench')).json()).open) return;
+    await fetch('/api/bench/open', { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify({ scene: 'bench' }) });
+  });
+
 export async function visit(view) {
+  if (view.startsWith('bench')) await openBench();
   await page.evaluate((h) => (location.hash = h), `#/${view}`);
   await page.waitForTimeout(kSettle);
 }
