@@ -72,3 +72,18 @@ TEST_CASE("no current flows 100 ms after a page that only watches switches the c
     return checked_in_time(on.bench.flowed_after(t), kWithin, on.bench.machine);
   });
 }
+
+TEST_CASE("a camera that is unplugged ends a capture with a message") {
+  LabOnBench on;
+  REQUIRE(on.page.post("/api/bench/capture", {{"time_s", 60}})["status"] == 200);
+  const auto state = [&] { return on.page.get("/api/bench"); };
+  REQUIRE(soon([&] { return state()["activity"].value("taken", 0) > 10; }));
+  on.bench.simulated->signal(SIGKILL);
+  REQUIRE(soon([&] { return state()["activity"].is_null(); }));
+  const Json s = state();
+  INFO(s["finished"].dump());
+  CHECK(s["finished"][0]["ok"] == false);
+  CHECK(s["finished"][0]["what"].get<std::string>().find("simulated bench disconnected") != std::string::npos);
+  CHECK(s["finished"][0]["kept"] > 10);
+  CHECK_FALSE(s["trouble"].get<std::string>().empty());
+}

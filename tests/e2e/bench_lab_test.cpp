@@ -1,5 +1,6 @@
 // The bench of the lab: captures, runs and jog on a simulated bench, and who may arm the coils.
 #include <doctest/doctest.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
@@ -107,7 +108,7 @@ TEST_CASE("a capture keeps the frames that were asked for, and becomes a video o
   const std::string out = done["out"];
   CHECK(out.starts_with("experiments/" + experiment + "/"));
   VideoReader video(b.lab.folder() / out);
-  CHECK(video.frame_count() == 10);
+  CHECK(video.frames() == 10);
   const Experiment e = read_experiment(b.lab.folder() / "experiments" / experiment / "experiment.toml");
   REQUIRE(e.videos.size() == 1);
   CHECK(e.videos[0].drop == "A");
@@ -229,4 +230,37 @@ TEST_CASE("a jog ends when its page is silent, and old messages change nothing")
   CHECK(ended["armed"] == false);
   CHECK(ended["finished"][0]["what"].get<std::string>().find("silent") != std::string::npos);
   CHECK(set(number + 5, session)["status"] == 422);
+}
+
+TEST_CASE("a camera that stalls ends a capture with a message; the recorded frames are kept") {
+  test::works_in_real_time();
+  const BenchLab b("[rig.bench]\nfreeze_after = '4 s'\n");
+  REQUIRE(b.page.post("/api/bench/capture", {{"time_s", 60}})["status"] == 200);
+  const Json s = b.until_idle();
+  const Json done = s["finished"][0];
+  INFO(done.dump());
+  CHECK(done["ok"] == false);
+  const std::string what = done["what"];
+  CHECK(what.find("no picture for 5 s") != std::string::npos);
+  CHECK(what.find(".part") != std::string::npos);
+  CHECK(fs::exists(b.lab.folder() / (done["out"].get<std::string>() + ".part")));
+  CHECK(s["trouble"].get<std::string>().find("no picture") != std::string::npos);
+}
+
+TEST_CASE("a full disk ends a capture with a message") {
+  test::works_in_real_time();
+  const BenchLab b;
+  const fs::path disk = b.lab.folder() / "captures";
+  fs::create_directory(disk);
+  if (geteuid() != 0 ||
+      std::system(("mount -t tmpfs -o size=300k tmpfs '" + disk.string() + "' 2> /dev/null").c_str()) != 0) {
+    test::skip("mounting a small file system is not permitted");
+    return;
+  }
+  b.page.post("/api/bench/capture", {{"format", "pgm"}, {"time_s", 60}});
+  const Json done = b.until_idle()["finished"][0];
+  CHECK(std::system(("umount '" + disk.string() + "'").c_str()) == 0);
+  INFO(done.dump());
+  CHECK(done["ok"] == false);
+  CHECK(done["what"].get<std::string>().find("No space left") != std::string::npos);
 }

@@ -28,7 +28,7 @@ Json measure_objective(const LabServices& lab, const Json& asked) {
     throw Error(Errc::usage, "objective",
                 "invalid name; it must consist of letters, digits, spaces, dots, underscores and dashes, "
                 "such as 10x");
-  const std::string now = lab.bench.picture();
+  const std::string now = lab.bench.png();
   if (now.empty()) throw Error(Errc::input, "bench", "no image from the camera");
   const fs::path taken = lab.pictures / fmt::format("ruler-taken-{}.png", ++number);
   write_file(taken, now);
@@ -177,10 +177,14 @@ void set_sample(const LabServices& lab, const Json& asked) {
 void add_bench_routes(Routes& routes, const LabServices& lab) {
   routes.add("GET", "/api/bench",
              [&lab](const auto&, const auto&) { return json_answer(lab.bench.state()); });
-  routes.add("GET", "/api/bench/picture.png", [&lab](const auto&, const auto&) {
-    const std::string picture = lab.bench.picture();
-    return WebResponse{.status = picture.empty() ? 204 : 200, .type = "image/png", .body = picture};
-  });
+  const auto picture = [&](const char* path, const char* type, std::string (BenchConsole::*encode)()) {
+    routes.add("GET", path, [&lab, type, encode](const auto&, const auto&) {
+      const std::string bytes = (lab.bench.*encode)();
+      return WebResponse{.status = bytes.empty() ? 204 : 200, .type = type, .body = bytes};
+    });
+  };
+  picture("/api/bench/picture.png", "image/png", &BenchConsole::png);
+  picture("/api/bench/picture.bmp", "image/bmp", &BenchConsole::bmp);
   // Requests whose answer is the state.
   const auto act = [&](const char* what, void (*request)(const LabServices&, const Json&)) {
     routes.add("POST", fmt::format("/api/bench/{}", what), [&lab, request](const auto& r, const auto&) {

@@ -46,7 +46,7 @@ double field_after_reversal(const StepResponseParams& p, int polarity) {
 
 void BenchConsole::capture(CaptureJob job, BenchDestination to) {
   const auto exposed = exposure();
-  start(activity("capture", to.title, false), [this, job, to, exposed](ViewedBench& b, BenchActivity& a) mutable {
+  start(begun("capture", to.title, false), [this, job, to, exposed](ViewedBench& b, BenchActivity& a) mutable {
     b.stop_view();
     job.out = to.out;
     job.timeout = b.scenario().rig->params.camera_timeout;
@@ -55,12 +55,13 @@ void BenchConsole::capture(CaptureJob job, BenchDestination to) {
     const std::size_t bytes = std::size_t(camera->width()) * std::size_t(camera->height());
     job.progress = [&a](std::uint64_t done, std::uint64_t total) { a.progress(done, total); };
     job.live = [&a, bytes](const Captured& c) { a.captured(c, bytes); };
-    a.out(shown(to, job.out));
+    a.out(shown(to, job.out), to.experiment);
     const Captured done = faba::capture(camera, job);
     a.captured(done, bytes);
     if (done.kept == 0) throw Error(Errc::input, "capture", "no frame was kept; there is no recording");
     recorded_({.path = job.out, .experiment = to.experiment, .drop = to.drop, .exposure_s = exposed});
-    return std::string(done.memory_full ? "stopped because the memory was full" : "");
+    const std::string note = done.memory_full ? "stopped because the memory was full" : "";
+    return note;
   });
 }
 
@@ -71,18 +72,19 @@ void BenchConsole::run(double duration_s, BenchDestination to, std::uint64_t pag
   Document d = with_exposure(bench(true)->scene(), exposed);
   d.set("duration", fmt::format("{} s", duration_s), "bench");
   Scenario s = read_scenario(d, builtin_parts());  // reports a wrong duration before anything starts
-  start(activity("run", to.title, true), [this, s, to, exposed](ViewedBench& b, BenchActivity& a) mutable {
+  start(begun("run", to.title, true), [this, s, to, exposed](ViewedBench& b, BenchActivity& a) mutable {
     b.stop_view();
     const auto open = std::make_shared<OpenBench>(s, b.seed(), OpenBench::Open::all, b.devices(&a));
     BenchSession session = BenchSession::begin(s, open, b.seed(), options_of(to, a));
-    a.out(shown(to, session.dir()));
+    a.out(shown(to, session.dir()), to.experiment);
     const bool complete = run_with_report(session);
     recorded_({.path = session.dir(),
                .experiment = to.experiment,
                .drop = to.drop,
                .exposure_s = exposed,
                .polarity = s.polarity()});
-    return std::string(complete ? "" : "stopped by the user");
+    const std::string note = complete ? "" : "stopped by the user";
+    return note;
   });
 }
 
@@ -92,7 +94,7 @@ void BenchConsole::step_responses(const Json& changes, BenchDestination to, std:
   Document d = with_exposure(bench(true)->scene(), exposure());
   for (const auto& [key, value] : changes.items()) d.set("rig.step_response." + key, value, "bench");
   const Scenario s = read_scenario(d, builtin_parts());  // reports wrong values before anything starts
-  start(activity("step-response", to.title, true), [this, d, s, to](ViewedBench& b, BenchActivity& a) {
+  start(begun("step-response", to.title, true), [this, d, s, to](ViewedBench& b, BenchActivity& a) {
     b.stop_view();
     const StepResponseParams p = s.rig->step_response;
     StepResponseJob job;
@@ -102,7 +104,7 @@ void BenchConsole::step_responses(const Json& changes, BenchDestination to, std:
     job.run = options_of(to, a);
     job.devices = b.devices(&a);
     int made = 0;
-    a.out(shown(to, to.out));
+    a.out(shown(to, to.out), to.experiment);
     a.item(1, p.repeat);
     job.done = [&](const RecordedResponse& r) {
       write_run_report(r.dir, read_run_info(r.dir / run_files::kManifest), read_series(r.dir / "series.csv"));
@@ -144,7 +146,8 @@ std::string BenchConsole::work_of_jog(ViewedBench& b, BenchActivity& a, Jog& ask
       const std::lock_guard lock(asked.mutex);
       if (monotonic_now() - asked.heard > kJogDeadline) {
         jog.disarm();
-        return "the page was silent: the coils were switched off";
+        std::string note = "the page was silent: the coils were switched off";
+        return note;
       }
       reset = std::exchange(asked.reset, false);
       for (std::size_t k = 0; k < asked.current.size() && k < jog.coils(); ++k)
@@ -169,7 +172,7 @@ JogSession BenchConsole::jog(std::uint64_t page, const std::string& permit) {
   const auto asked = std::make_shared<Jog>();
   const std::vector<double> most = bench(true)->scenario().rig->max_current();
   start(
-      activity("jog", "", true),
+      begun("jog", "", true),
       [asked](ViewedBench& b, BenchActivity& a) { return work_of_jog(b, a, *asked); }, asked);
   return {asked->secret, most};
 }

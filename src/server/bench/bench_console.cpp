@@ -86,11 +86,18 @@ void BenchConsole::close() {
   tell();
 }
 
-std::string BenchConsole::picture() {
+std::string BenchConsole::png() {
   const auto b = bench(false);
   if (!b) return {};
   b->mark_used();
   return b->live().png();
+}
+
+std::string BenchConsole::bmp() {
+  const auto b = bench(false);
+  if (!b) return {};
+  b->mark_used();
+  return b->live().bmp();
 }
 
 void BenchConsole::set(const std::string& control, double value, std::optional<bool> automatically) {
@@ -112,8 +119,8 @@ std::optional<double> BenchConsole::exposure() {
   return monotonic_now() - *placed_;
 }
 
-std::shared_ptr<BenchActivity> BenchConsole::activity(const char* kind, const std::string& title,
-                                                      bool uses_coils) {
+std::shared_ptr<BenchActivity> BenchConsole::begun(const char* kind, const std::string& title,
+                                                   bool uses_coils) {
   const Scenario& s = bench(true)->scenario();
   return std::make_shared<BenchActivity>(kind, title, uses_coils, s.arena.make({s.si_scale()})->frame(),
                                          s.rig->max_current());
@@ -156,7 +163,7 @@ void BenchConsole::finish(const std::shared_ptr<BenchActivity>& activity, Json r
   Json last = Json::object();
   activity->describe(last);
   const Json& a = last["activity"];
-  for (const char* key : {"kind", "title", "out", "taken", "kept", "dropped", "corrupt"})
+  for (const char* key : {"kind", "title", "out", "experiment", "taken", "kept", "dropped", "corrupt"})
     if (a.contains(key)) result[key] = a[key];
   result["duration_s"] = a["started_s_ago"];
   {

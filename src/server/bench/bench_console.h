@@ -61,8 +61,9 @@ class BenchConsole {
   void close();
   /// The state for pages, see web/protocol.md. A request keeps an idle camera open.
   Json state();
-  /// The newest picture as PNG; empty without a picture.
-  std::string picture();
+  /// The newest picture as PNG, or as BMP, which costs the least time; empty without a picture.
+  std::string png();
+  std::string bmp();
   /// Throws Error(usage) for a control or value that the camera does not support, Error(input) if none is
   /// open.
   void set(const std::string& control, double value, std::optional<bool> automatically);
@@ -97,7 +98,7 @@ class BenchConsole {
 
   std::shared_ptr<ViewedBench> bench(bool required);
   std::shared_ptr<ViewedBench> take_bench();
-  std::shared_ptr<BenchActivity> activity(const char* kind, const std::string& title, bool uses_coils);
+  std::shared_ptr<BenchActivity> begun(const char* kind, const std::string& title, bool uses_coils);
   void start(const std::shared_ptr<BenchActivity>& activity, Work work, std::shared_ptr<Jog> jog = nullptr);
   void finish(const std::shared_ptr<BenchActivity>& activity, Json result);
   std::optional<double> exposure();

@@ -16,6 +16,31 @@ constexpr double kPictureTimeout = 2;   // s without a picture, after which this
 constexpr double kEstimatePeriod = 0.1; // s between two estimates: ten per second look continuous
 constexpr std::size_t kBins = 64;       // of the histogram, each of 4 grey levels
 
+void add_little_endian(std::string& to, std::uint32_t value, int bytes) {
+  for (int i = 0; i < bytes; ++i) to.push_back(char(value >> (8 * i) & 0xff));
+}
+
+// Windows bitmap with 8 bits per pixel and a grey palette: BITMAPFILEHEADER and BITMAPINFOHEADER of the Windows
+// API. A negative height means that the first row is the upper one.
+std::string bitmap(const Gray8& picture) {
+  constexpr std::uint32_t kHeaders = 14 + 40, kPalette = 4 * 256;
+  const auto width = std::uint32_t(picture.width), height = std::uint32_t(picture.height);
+  const std::uint32_t row = (width + 3) / 4 * 4, pixels = row * height;  // rows are multiples of 4 bytes
+  std::string out = "BM";
+  out.reserve(kHeaders + kPalette + pixels);
+  for (const std::uint32_t v : {kHeaders + kPalette + pixels, 0u, kHeaders + kPalette, 40u, width, 0u - height})
+    add_little_endian(out, v, 4);
+  add_little_endian(out, 1, 2);  // planes
+  add_little_endian(out, 8, 2);  // bits per pixel
+  for (const std::uint32_t v : {0u, pixels, 0u, 0u, 256u, 0u}) add_little_endian(out, v, 4);
+  for (std::uint32_t g = 0; g < 256; ++g) add_little_endian(out, g * 0x010101u, 4);
+  for (int y = 0; y < picture.height; ++y) {
+    out.append(reinterpret_cast<const char*>(&picture.px[std::size_t(y) * width]), width);
+    out.append(row - width, '\0');
+  }
+  return out;
+}
+
 Json swarm_json(const Estimate& e, const Frame& frame) {
   if (!(e.visible > 0)) return nullptr;
   const Vec2 centre = frame.image_from_world(e.centroid);
@@ -123,16 +148,22 @@ void LivePicture::describe(Json& j) const {
   j["histogram"] = bins;
 }
 
+ImageRef LivePicture::image() const {
+  const std::lock_guard lock(mutex_);
+  return newest_.image;
+}
+
 std::string LivePicture::png() const {
-  ImageRef image;
-  {
-    const std::lock_guard lock(mutex_);
-    image = newest_.image;
-  }
+  const ImageRef image = this->image();
   if (!image) return {};
   FrameEncoder png(FrameEncoder::Kind::png_grey, image->width, image->height);
   const auto bytes = png.encode(*image);
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::string LivePicture::bmp() const {
+  const ImageRef image = this->image();
+  return image ? bitmap(*image) : std::string();
 }
 
 }  // namespace faba

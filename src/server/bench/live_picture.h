@@ -26,10 +26,12 @@ class LivePicture {
   /// Adds "frames", "dropped", "corrupt", "rate_hz", "mean", "saturated", "histogram" and "estimate" to `j`,
   /// and "trouble" if no frames arrive.
   void describe(Json& j) const;
-  /// As PNG; empty without a picture.
+  /// As PNG, or as BMP, which needs no time for compression; empty without a picture.
   std::string png() const;
+  std::string bmp() const;
 
  private:
+  ImageRef image() const;
   void estimate_swarms(const std::stop_token& stop);
 
   mutable std::mutex mutex_;
