@@ -3,8 +3,8 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <utility>
 #include <thread>
+#include <utility>
 
 #include "app/bench/bench_watcher.h"
 #include "app/bench/capture.h"
