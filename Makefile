@@ -43,6 +43,7 @@ bench: build          ## measure speed and compare it with NumPy, Octave and har
 	@$(SETUP) engines
 	@/usr/bin/python3 bench/engines.py
 	@node bench/lab.mjs --program build/faba --root . --out bench/results/lab.md
+	@node bench/capture.mjs --program build/faba --root . --out bench/results/capture.md
 
 accuracy: build       ## test measurements on rendered videos with known ground truth; with SEEDS=20 EXPERIMENTS=40: two hours
 	@$(SETUP) test bench

@@ -33,8 +33,10 @@ struct LabOnBench {
   }
   LabAccess& started() {
     std::string scene = kScene + bench.rig;
-    const std::string relative = "at = 'bench'", absolute = "at = '" + (bench.f.path / "bench").string() + "'";
-    for (auto at = scene.find(relative); at != std::string::npos; at = scene.find(relative, at + absolute.size()))
+    const std::string relative = "at = 'bench'",
+                      absolute = "at = '" + (bench.f.path / "bench").string() + "'";
+    for (auto at = scene.find(relative); at != std::string::npos;
+         at = scene.find(relative, at + absolute.size()))
       scene.replace(at, relative.size(), absolute);
     write_file(lab.folder() / "scenes/bench.toml", scene);
     lab.start();
@@ -83,7 +85,8 @@ TEST_CASE("a camera that is unplugged ends a capture with a message") {
   const Json s = state();
   INFO(s["finished"].dump());
   CHECK(s["finished"][0]["ok"] == false);
-  CHECK(s["finished"][0]["what"].get<std::string>().find("simulated bench disconnected") != std::string::npos);
+  CHECK(s["finished"][0]["what"].get<std::string>().find("simulated bench disconnected") !=
+        std::string::npos);
   CHECK(s["finished"][0]["kept"] > 10);
   CHECK_FALSE(s["trouble"].get<std::string>().empty());
 }

@@ -25,7 +25,7 @@ namespace {
 const std::string kBench =
     "title = 'Bench'\nduration = '20 s'\nseed = 1\ncamera = { rate = '30 Hz' }\n"
     "limits = { max_current = '0.4 A' }\narena = { type = 'box', size_px = [160, 120] }\n"
-    "controller = { type = 'manual', current = [0.3, -0.2] }\n"
+    "estimator = 'image'\ncontroller = { type = 'manual', current = [0.3, -0.2] }\n"
     "[[swarm]]\ncount = 30\nmodel = { type = 'dipole', preset = 'IT-1' }\n"
     "[rig]\ncamera_timeout = '5 s'\nguard = { heartbeat_deadline = '1 s', command_deadline = '1 s' }\n"
     "step_response = { gather = '1 s', before = '0.5 s', record = '1 s', field = '20 uT' }\n";
@@ -96,7 +96,8 @@ TEST_CASE("a capture keeps the frames that were asked for, and becomes a video o
   const BenchLab b;
   const std::string experiment = b.page.post("/api/experiments", {{"title", "Ageing"}})["name"];
   b.page.post("/api/bench/sample", {{"exposure_s", 100}});
-  const Json asked = {{"frames", 20}, {"one_of", 2}, {"name", "look"}, {"experiment", experiment}, {"drop", "A"}};
+  const Json asked = {
+      {"frames", 20}, {"one_of", 2}, {"name", "look"}, {"experiment", experiment}, {"drop", "A"}};
   REQUIRE(b.page.post("/api/bench/capture", asked)["status"] == 200);
   CHECK(b.page.post("/api/bench/capture", asked)["status"] == 422);  // one at a time
   CHECK(b.page.post("/api/bench/open", {{"scene", "bench"}})["status"] == 422);
@@ -108,7 +109,7 @@ TEST_CASE("a capture keeps the frames that were asked for, and becomes a video o
   const std::string out = done["out"];
   CHECK(out.starts_with("experiments/" + experiment + "/"));
   VideoReader video(b.lab.folder() / out);
-  CHECK(video.frames() == 10);
+  CHECK(video.frames_in_header() == 10);
   const Experiment e = read_experiment(b.lab.folder() / "experiments" / experiment / "experiment.toml");
   REQUIRE(e.videos.size() == 1);
   CHECK(e.videos[0].drop == "A");
@@ -127,7 +128,8 @@ TEST_CASE("only corrupt frames are kept if they are asked for") {
   const int kept = done["kept"];
   CHECK(kept == done["corrupt"]);
   CHECK(kept >= 1);
-  const Table times = read_table(b.lab.folder() / done["out"].get<std::string>() / "times.csv", LastLine::keep);
+  const Table times =
+      read_table(b.lab.folder() / done["out"].get<std::string>() / "times.csv", LastLine::keep);
   for (const double number : times.column("camera_frame")) CHECK(std::fmod(number, 5) == 0);
 }
 
@@ -143,7 +145,8 @@ TEST_CASE("a run needs a permit, is recorded, and ends when the coils are switch
     CHECK(other.post("/api/bench/permit", {{"page", other.page}, {"what", "run"}})["status"] == 422);
     // A page cannot use the permit of another one.
     const Json permit = b.page.post("/api/bench/permit", {{"page", page}, {"what", "run"}});
-    CHECK(other.post("/api/bench/run", {{"page", other.page}, {"permit", permit["permit"]}})["status"] == 422);
+    CHECK(other.post("/api/bench/run", {{"page", other.page}, {"permit", permit["permit"]}})["status"] ==
+          422);
   }
   REQUIRE(b.page.armed("run", {{"duration_s", 20}, {"name", "held"}})["status"] == 200);
   const Json armed = b.until_armed();
@@ -209,7 +212,8 @@ TEST_CASE("a jog ends when its page is silent, and old messages change nothing")
   const std::string session = jog["session"];
   std::uint64_t number = 0;
   const auto set = [&](std::uint64_t n, const std::string& secret) {
-    return b.page.post("/api/bench/jog/set", {{"session", secret}, {"number", n}, {"currents_a", {0.1, 0.9}}});
+    return b.page.post("/api/bench/jog/set",
+                       {{"session", secret}, {"number", n}, {"currents_a", {0.1, 0.9}}});
   };
   Json s;
   for (int i = 0; i < 100 && !(s.contains("armed") && s["armed"] == true); ++i) {

@@ -124,7 +124,7 @@ await step('arming is deliberate: Cancel has the focus, and the button needs the
   await dialog.getByText('The permit is valid for').waitFor();
   assert.equal(await page.evaluate(() => document.activeElement.textContent), 'Cancel');
   assert.ok(await button('Arm the coils and run', dialog).isDisabled());
-  await dialog.getByText('±450 mA').first().waitFor();
+  await dialog.getByText('±400 mA').first().waitFor();
   await shot('arm');
   await page.keyboard.press('Enter');
   await dialog.waitFor({ state: 'detached' });
@@ -204,7 +204,7 @@ await step('jog: the sensed current follows, and the coils are off when the pane
   await shot('jog');
   await current.fill('9999');
   await current.press('Enter');
-  assert.equal(await current.inputValue(), '450');
+  assert.equal(await current.inputValue(), '400');
   await page.locator('h2').first().click();
   await button('Coil 2: +20 mA').click();
   await until(async () => (await bench()).coils[1].current_a > 0.019, 'a step of another coil');

@@ -18,7 +18,8 @@ class LabProgram : public LabAccess {
     std::filesystem::create_directories(folder / "scenes");
   }
   void start() {
-    process_ = std::make_unique<Child>(folder_, "'" FABA_PROGRAM "' lab --no-browser > address.txt 2> lab.txt");
+    process_ =
+        std::make_unique<Child>(folder_, "'" FABA_PROGRAM "' lab --no-browser > address.txt 2> lab.txt");
     REQUIRE(soon([&] {
       std::ifstream in(folder_ / "address.txt");
       std::string line;

@@ -6,8 +6,16 @@
 
 namespace faba {
 
-BenchControls::BenchControls(const Scenario& s) : limits(s.limits) {
+std::vector<double> permitted_currents(const Scenario& s) {
   if (!s.rig) throw Error(Errc::usage, "rig", "the table [rig] is missing; add it, as in scenes/bench.toml");
+  std::vector<double> most = s.field.make({})->max_currents(s.limits.max_current);
+  const std::vector<double> wired = s.rig->max_current();
+  for (std::size_t k = 0; k < most.size(); ++k) most[k] = std::min(most[k], wired[k]);
+  return most;
+}
+
+BenchControls::BenchControls(const Scenario& s) : limits(s.limits) {
+  const std::vector<double> max_currents = permitted_currents(s);
   if (!s.events.empty())
     throw Error(Errc::usage, "event", "a run on a bench cannot exchange parts; remove [[event]]");
   field = s.field.make({});
@@ -17,9 +25,6 @@ BenchControls::BenchControls(const Scenario& s) : limits(s.limits) {
   estimator = s.estimator.make(control);
   reference = s.reference.make(control);
   controller = s.controller.make(control);
-  std::vector<double> max_currents = field->max_currents(s.limits.max_current);
-  const std::vector<double> wired = s.rig->max_current();
-  for (std::size_t k = 0; k < max_currents.size(); ++k) max_currents[k] = std::min(max_currents[k], wired[k]);
   Limits::Params p = s.limits;
   if (const auto slew = s.rig->guard.max_slew) p.max_slew = std::min(*slew, p.max_slew.value_or(*slew));
   const CoilWiring wiring(s.rig->coils);

@@ -6,6 +6,10 @@
 
 namespace faba {
 
+/// Maximum current of each coil of a bench, A: permitted by the limits of the scenario and of the wired coil.
+/// Throws Error(usage) for a scenario without [rig].
+std::vector<double> permitted_currents(const Scenario& s);
+
 /// The parts of the control loop of a scenario on a bench: estimator, reference, controller and limits,
 /// without a simulation.
 struct BenchControls {

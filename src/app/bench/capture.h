@@ -12,19 +12,19 @@ namespace faba {
 /// Counts of a capture.
 struct Captured {
   std::uint64_t taken = 0, kept = 0;
-  std::uint64_t dropped = 0;  ///< frames of the camera that were not read in time
+  std::uint64_t dropped = 0;   ///< frames of the camera that were not read in time
   std::uint64_t corrupt = 0;   ///< frames that arrived damaged; left out unless only they are kept
   std::uint64_t buffered = 0;  ///< frames in memory that wait to be written
-  double duration = 0;        ///< from the first to the last frame, s
-  bool memory_full = false;   ///< a buffered capture stopped because the memory was full
+  double duration = 0;         ///< from the first to the last frame, s
+  bool memory_full = false;    ///< a buffered capture stopped because the memory was full
 };
 
 /// Which pictures of a camera are recorded, and how (Fig. 3.9 of the thesis).
 struct CaptureJob {
-  std::uint64_t frames = 0;  ///< maximum number of camera frames; 0: no limit
-  double time = 0;           ///< maximum duration, s; 0: no limit
-  std::uint64_t one_of = 1;  ///< one of this number of frames is kept
-  double every = 0;          ///< time between kept frames, s; 0: not used
+  std::uint64_t frames = 0;   ///< maximum number of camera frames; 0: no limit
+  double time = 0;            ///< maximum duration, s; 0: no limit
+  std::uint64_t one_of = 1;   ///< one of this number of frames is kept
+  double every = 0;           ///< time between kept frames, s; 0: not used
   bool buffered = false;      ///< pictures are kept in memory and written at the end
   bool only_corrupt = false;  ///< only frames that arrived damaged are kept, if the camera still gives them
   /// mp4 or avi: a video; png, pgm, ppm or tiff: a folder of numbered pictures.

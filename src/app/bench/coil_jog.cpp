@@ -4,16 +4,17 @@
 #include <cmath>
 #include <limits>
 
+#include "app/bench/bench_controls.h"
 #include "core/monotonic.h"
 
 namespace faba {
 
-CoilJog::CoilJog(GuardLink& coils, const RigSetup& setup)
+CoilJog::CoilJog(GuardLink& coils, const Scenario& s)
     : coils_(coils),
-      limits_(setup.max_current()),
+      limits_(permitted_currents(s)),
       requested_(limits_.size(), 0.0),
       current_(limits_.size(), 0.0),
-      max_change_per_s_(setup.guard.max_slew.value_or(std::numeric_limits<double>::infinity())),
+      max_change_per_s_(s.rig->guard.max_slew.value_or(std::numeric_limits<double>::infinity())),
       last_(monotonic_now()) {}
 
 void CoilJog::request(std::size_t coil, double current) {

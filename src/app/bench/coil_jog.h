@@ -1,18 +1,19 @@
 #pragma once
 #include <vector>
 
+#include "app/scenario/scenario.h"
 #include "rig/guard/guard_link.h"
-#include "rig/setup/rig_setup.h"
 
 namespace faba {
 
-/// Coil currents that a user sets by hand: within the limits of the coils, and approached at the slew rate of
+/// Coil currents that a user sets by hand: within permitted_currents(), and approached at the slew rate of
 /// the guard. The coils start disarmed, and all currents are zero while they are.
 class CoilJog {
  public:
   static constexpr double kCycle = 0.02;  ///< s, between two calls of step()
 
-  CoilJog(GuardLink& coils, const RigSetup& setup);
+  /// `s`: with [rig].
+  CoilJog(GuardLink& coils, const Scenario& s);
 
   std::size_t coils() const { return limits_.size(); }
   double limit(std::size_t coil) const { return limits_[coil]; }         ///< A

@@ -20,8 +20,8 @@ struct RecordedResponse {
 struct StepResponseJob {
   Document scene;  ///< a scenario with [rig]; its controller, reference and duration are not used
   std::uint64_t seed = 1;
-  std::string experiment;  ///< name of the drop; empty: a number
-  RunOptions run;          ///< `out`: the study's directory; progress is in ms of the schedule
+  std::string experiment;     ///< name of the drop; empty: a number
+  RunOptions run;             ///< `out`: the study's directory; progress is in ms of the schedule
   BenchDevices devices = {};  ///< that are open already
   std::function<void(const RecordedResponse&)>
       done;  ///< called after each; its directory is then complete except for a report

@@ -46,8 +46,7 @@ double number_of(const Json& asked, const char* key, double fallback, double lea
 std::uint64_t count_of(const Json& asked, const char* key, std::uint64_t fallback, std::uint64_t least) {
   constexpr double kMost = 1e9;
   const double value = number_of(asked, key, double(fallback), double(least), kMost);
-  if (value != std::floor(value))
-    throw Error(Errc::usage, key, fmt::format("{:g} is not an integer", value));
+  if (value != std::floor(value)) throw Error(Errc::usage, key, fmt::format("{:g} is not an integer", value));
   return std::uint64_t(value);
 }
 
@@ -88,8 +87,9 @@ void capture(const LabServices& lab, const Json& asked) {
   job.format = asked.value("format", "avi");
   constexpr std::array kFormats = {"avi", "mp4", "png", "pgm", "ppm", "tiff"};
   if (std::ranges::find(kFormats, job.format) == kFormats.end())
-    throw Error(Errc::usage, "format",
-                fmt::format("\"{}\" is not a format; choose one of {}", job.format, fmt::join(kFormats, ", ")));
+    throw Error(
+        Errc::usage, "format",
+        fmt::format("\"{}\" is not a format; choose one of {}", job.format, fmt::join(kFormats, ", ")));
   if (job.every > 0 && job.one_of > 1)
     throw Error(Errc::usage, "every_s", "cannot be combined with one_of; choose one of them");
   const std::string name = name_of(asked, "capture");
@@ -146,8 +146,9 @@ Json permit(const LabServices& lab, const Json& asked) {
   const std::string what = text_of(asked, "what");
   constexpr std::array kPurposes = {"run", "step-response", "jog"};
   if (std::ranges::find(kPurposes, what) == kPurposes.end())
-    throw Error(Errc::usage, "what",
-                fmt::format("\"{}\" does not use the coils; choose one of {}", what, fmt::join(kPurposes, ", ")));
+    throw Error(
+        Errc::usage, "what",
+        fmt::format("\"{}\" does not use the coils; choose one of {}", what, fmt::join(kPurposes, ", ")));
   return {{"permit", lab.bench.permits().issue(page_of(asked), what, monotonic_now())},
           {"valid_s", ArmingPermits::kValid}};
 }

@@ -30,9 +30,10 @@ void ArmingPermits::use(const std::string& permit, std::uint64_t page, const std
                      purpose == present->purpose && now - present->issued <= kValid &&
                      equal_in_constant_time(permit, present->secret);
   if (!valid)
-    throw Error(Errc::usage, "permit",
-                "the permission to arm the coils is not valid: it is used up, too old, or was given to another "
-                "page; arm again");
+    throw Error(
+        Errc::usage, "permit",
+        "the permission to arm the coils is not valid: it is used up, too old, or was given to another "
+        "page; arm again");
 }
 
 void ArmingPermits::revoke() {

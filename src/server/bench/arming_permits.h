@@ -7,8 +7,8 @@
 namespace faba {
 
 /// Who may arm the coils from a page. A permit is given to the page that steers, for one purpose; it is valid
-/// for a short time and for one use. There is at most one permit. Old pages, repeated messages and pages of an
-/// earlier lab therefore cannot arm the coils. Thread-safe.
+/// for a short time and for one use. There is at most one permit. Old pages, repeated messages and pages of
+/// an earlier lab therefore cannot arm the coils. Thread-safe.
 class ArmingPermits {
  public:
   static constexpr double kValid = 15;  ///< s, time to read the question and to answer it; assumed

@@ -46,23 +46,24 @@ double field_after_reversal(const StepResponseParams& p, int polarity) {
 
 void BenchConsole::capture(CaptureJob job, BenchDestination to) {
   const auto exposed = exposure();
-  start(begun("capture", to.title, false), [this, job, to, exposed](ViewedBench& b, BenchActivity& a) mutable {
-    b.stop_view();
-    job.out = to.out;
-    job.timeout = b.scenario().rig->params.camera_timeout;
-    job.stop = &a.stop;
-    const auto camera = b.camera();
-    const std::size_t bytes = std::size_t(camera->width()) * std::size_t(camera->height());
-    job.progress = [&a](std::uint64_t done, std::uint64_t total) { a.progress(done, total); };
-    job.live = [&a, bytes](const Captured& c) { a.captured(c, bytes); };
-    a.out(shown(to, job.out), to.experiment);
-    const Captured done = faba::capture(camera, job);
-    a.captured(done, bytes);
-    if (done.kept == 0) throw Error(Errc::input, "capture", "no frame was kept; there is no recording");
-    recorded_({.path = job.out, .experiment = to.experiment, .drop = to.drop, .exposure_s = exposed});
-    const std::string note = done.memory_full ? "stopped because the memory was full" : "";
-    return note;
-  });
+  start(begun("capture", to.title, false),
+        [this, job, to, exposed](ViewedBench& b, BenchActivity& a) mutable {
+          b.stop_view();
+          job.out = to.out;
+          job.timeout = b.scenario().rig->params.camera_timeout;
+          job.stop = &a.stop;
+          const auto camera = b.camera();
+          const std::size_t bytes = std::size_t(camera->width()) * std::size_t(camera->height());
+          job.progress = [&a](std::uint64_t done, std::uint64_t total) { a.progress(done, total); };
+          job.live = [&a, bytes](const Captured& c) { a.captured(c, bytes); };
+          a.out(shown(to, job.out), to.experiment);
+          const Captured done = faba::capture(camera, job);
+          a.captured(done, bytes);
+          if (done.kept == 0) throw Error(Errc::input, "capture", "no frame was kept; there is no recording");
+          recorded_({.path = job.out, .experiment = to.experiment, .drop = to.drop, .exposure_s = exposed});
+          const std::string note = done.memory_full ? "stopped because the memory was full" : "";
+          return note;
+        });
 }
 
 void BenchConsole::run(double duration_s, BenchDestination to, std::uint64_t page,
@@ -137,7 +138,7 @@ std::string BenchConsole::work_of_jog(ViewedBench& b, BenchActivity& a, Jog& ask
   Scenario s = b.scenario();
   const OpenBench open(s, b.seed(), OpenBench::Open::coils, b.devices(nullptr));
   GuardLink coils(open.guard_setup({}));
-  CoilJog jog(coils, *s.rig);
+  CoilJog jog(coils, s);
   jog.arm();
   while (!a.stop) {
     std::this_thread::sleep_for(std::chrono::duration<double>(CoilJog::kCycle));
@@ -170,10 +171,10 @@ std::string BenchConsole::work_of_jog(ViewedBench& b, BenchActivity& a, Jog& ask
 JogSession BenchConsole::jog(std::uint64_t page, const std::string& permit) {
   permits_.use(permit, page, "jog", monotonic_now());
   const auto asked = std::make_shared<Jog>();
-  const std::vector<double> most = bench(true)->scenario().rig->max_current();
+  const std::vector<double> most = permitted_currents(bench(true)->scenario());
   start(
-      begun("jog", "", true),
-      [asked](ViewedBench& b, BenchActivity& a) { return work_of_jog(b, a, *asked); }, asked);
+      begun("jog", "", true), [asked](ViewedBench& b, BenchActivity& a) { return work_of_jog(b, a, *asked); },
+      asked);
   return {asked->secret, most};
 }
 

@@ -123,7 +123,7 @@ std::shared_ptr<BenchActivity> BenchConsole::begun(const char* kind, const std::
                                                    bool uses_coils) {
   const Scenario& s = bench(true)->scenario();
   return std::make_shared<BenchActivity>(kind, title, uses_coils, s.arena.make({s.si_scale()})->frame(),
-                                         s.rig->max_current());
+                                         permitted_currents(s));
 }
 
 void BenchConsole::start(const std::shared_ptr<BenchActivity>& activity, Work work,
@@ -204,7 +204,7 @@ Json BenchConsole::describe(bool all) {
   const double now = monotonic_now();
   std::shared_ptr<ViewedBench> b;
   std::shared_ptr<BenchActivity> a;
-  Json j = {{"open", nullptr}, {"activity", nullptr}, {"armed", false},
+  Json j = {{"open", nullptr},  {"activity", nullptr},    {"armed", false},
             {"guard", nullptr}, {"coils", Json::array()}, {"setpoint_px", nullptr}};
   {
     const std::lock_guard lock(mutex_);

@@ -27,11 +27,12 @@ struct BenchDestination {
 struct BenchRecording {
   std::filesystem::path path;
   std::string experiment, drop;
-  std::optional<double> exposure_s = {};   ///< air exposure time of the sample at its start
-  std::optional<double> reversal_s = {};   ///< time of the field reversal in it
-  std::optional<double> field_deg = {};    ///< direction of the field after the reversal, counter-clockwise, y up
-  std::optional<double> field_t = {};      ///< T
-  int polarity = 0;                   ///< of the cells that the scene names: +1 north, -1 south, 0 not stated
+  std::optional<double> exposure_s = {};  ///< air exposure time of the sample at its start
+  std::optional<double> reversal_s = {};  ///< time of the field reversal in it
+  std::optional<double> field_deg =
+      {};                              ///< direction of the field after the reversal, counter-clockwise, y up
+  std::optional<double> field_t = {};  ///< T
+  int polarity = 0;  ///< of the cells that the scene names: +1 north, -1 south, 0 not stated
 };
 
 /// A page's jog: its secret and the largest current of each coil, A.
@@ -41,9 +42,9 @@ struct JogSession {
 };
 
 /// The bench of the lab for its pages: live view of the camera, captures, runs, step responses and jog. It
-/// belongs to the lab, not to a page: activities continue when a page is closed, except a jog, which ends when
-/// its page is silent. What energises the coils needs a permit (arming_permits.h) and goes through Limits and
-/// the guard. Thread-safe.
+/// belongs to the lab, not to a page: activities continue when a page is closed, except a jog, which ends
+/// when its page is silent. What energises the coils needs a permit (arming_permits.h) and goes through
+/// Limits and the guard. Thread-safe.
 class BenchConsole {
  public:
   /// A jog without a message of its page for this time ends, s.
@@ -117,7 +118,7 @@ class BenchConsole {
   std::shared_ptr<BenchActivity> activity_;
   std::shared_ptr<Jog> jog_;
   std::uint64_t openings_ = 0;
-  std::deque<Json> finished_;  ///< newest first, with "at" in s
+  std::deque<Json> finished_;     ///< newest first, with "at" in s
   std::optional<double> placed_;  ///< s, when the air exposure of the sample began
   std::string fault_;
   double fault_at_ = 0;

@@ -11,24 +11,25 @@
 namespace faba {
 namespace {
 
-constexpr double kRateTime = 1;         // s, averaging time of the frame rate
-constexpr double kPictureTimeout = 2;   // s without a picture, after which this is reported
-constexpr double kEstimatePeriod = 0.1; // s between two estimates: ten per second look continuous
-constexpr std::size_t kBins = 64;       // of the histogram, each of 4 grey levels
+constexpr double kRateTime = 1;          // s, averaging time of the frame rate
+constexpr double kPictureTimeout = 2;    // s without a picture, after which this is reported
+constexpr double kEstimatePeriod = 0.1;  // s between two estimates: ten per second look continuous
+constexpr std::size_t kBins = 64;        // of the histogram, each of 4 grey levels
 
 void add_little_endian(std::string& to, std::uint32_t value, int bytes) {
   for (int i = 0; i < bytes; ++i) to.push_back(char(value >> (8 * i) & 0xff));
 }
 
-// Windows bitmap with 8 bits per pixel and a grey palette: BITMAPFILEHEADER and BITMAPINFOHEADER of the Windows
-// API. A negative height means that the first row is the upper one.
+// Windows bitmap with 8 bits per pixel and a grey palette: BITMAPFILEHEADER and BITMAPINFOHEADER of the
+// Windows API. A negative height means that the first row is the upper one.
 std::string bitmap(const Gray8& picture) {
   constexpr std::uint32_t kHeaders = 14 + 40, kPalette = 4 * 256;
   const auto width = std::uint32_t(picture.width), height = std::uint32_t(picture.height);
   const std::uint32_t row = (width + 3) / 4 * 4, pixels = row * height;  // rows are multiples of 4 bytes
   std::string out = "BM";
   out.reserve(kHeaders + kPalette + pixels);
-  for (const std::uint32_t v : {kHeaders + kPalette + pixels, 0u, kHeaders + kPalette, 40u, width, 0u - height})
+  for (const std::uint32_t v :
+       {kHeaders + kPalette + pixels, 0u, kHeaders + kPalette, 40u, width, 0u - height})
     add_little_endian(out, v, 4);
   add_little_endian(out, 1, 2);  // planes
   add_little_endian(out, 8, 2);  // bits per pixel

@@ -37,9 +37,9 @@ class LivePicture {
   mutable std::mutex mutex_;
   std::condition_variable_any arrived_;
   CameraFrame newest_;
-  double received_;       ///< s, arrival of `newest_`
-  double rate_ = 0;       ///< Hz
-  double lateness_ = 0;   ///< s
+  double received_;      ///< s, arrival of `newest_`
+  double rate_ = 0;      ///< Hz
+  double lateness_ = 0;  ///< s
   std::uint64_t frames_ = 0, dropped_ = 0, corrupt_ = 0;
   std::uint64_t last_number_ = 0;  ///< 0: the next frame follows a gap
   Json estimate_;

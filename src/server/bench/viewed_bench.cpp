@@ -17,7 +17,8 @@ ViewedBench::ViewedBench(const Document& scene, std::string name)
       device_(std::make_shared<OpenCamera>()) {
   if (scenario_.rig && scenario_.rig->needs_bench())
     simulated_ = std::make_shared<BenchProcess>(scenario_, seed());
-  device_->camera = OpenBench(scenario_, seed(), OpenBench::Open::all, {simulated_, nullptr, nullptr}).camera();
+  device_->camera =
+      OpenBench(scenario_, seed(), OpenBench::Open::all, {simulated_, nullptr, nullptr}).camera();
   live_ = std::make_unique<LivePicture>(scenario_);
   device_->seen = [this](const CameraFrame& f) { live_->take(f); };
 }
@@ -80,7 +81,7 @@ void ViewedBench::describe(Json& j, bool all) const {
                                            {"radius_px", edge.radius_px}}
                                     : Json();
   Json coils = Json::array();
-  for (const double most : scenario_.rig->max_current())
+  for (const double most : permitted_currents(scenario_))
     coils.push_back({{"current_a", 0.0}, {"sensed_a", nullptr}, {"max_a", most}});
   if (j["coils"].empty()) j["coils"] = std::move(coils);
 }

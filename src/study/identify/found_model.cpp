@@ -24,8 +24,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 VectorXd noise_of(const ParameterSearch& s) {
-  // 0.01 is below the resolution of a video for all statistics, in pixels per frame or as a fraction.
-  return (s.emulator().residuals().array().square().colwise().mean().sqrt().max(0.01)).matrix().transpose();
+  return (s.emulator().residuals().array().square().colwise().mean().sqrt().max(kStatisticResolution))
+      .matrix()
+      .transpose();
 }
 
 double energy_score(const MatrixXd& draws, const VectorXd& observed, const VectorXd& scale) {
@@ -166,8 +167,15 @@ bool converged(const ParameterSearch& s, const VectorXd& mode) {
   constexpr double kMuchNearer = 0.1;
   const SimulationTable& all = s.simulations();
   const Eigen::RowVectorXd mean = all.s.colwise().mean();
-  const VectorXd scale =
-      (all.s.rowwise() - mean).array().square().colwise().mean().sqrt().max(0.01).matrix().transpose();
+  const VectorXd scale = (all.s.rowwise() - mean)
+                             .array()
+                             .square()
+                             .colwise()
+                             .mean()
+                             .sqrt()
+                             .max(kStatisticResolution)
+                             .matrix()
+                             .transpose();
   const auto squared_distance = [&](const VectorXd& off) { return off.cwiseQuotient(scale).squaredNorm(); };
   double nearest = squared_distance(all.s.row(0).transpose() - s.observed());
   for (Index i = 1; i < all.size(); ++i)

@@ -7,7 +7,11 @@
 
 namespace faba {
 
-/// Standard deviation of the noise of each statistic near the posterior, at least 0.01.
+/// Resolution of the statistics of a video, in pixels per frame or as a fraction; assumed. Deviations that
+/// are smaller may come from the measurement, and are then the same in many statistics.
+inline constexpr double kStatisticResolution = 0.01;
+
+/// Standard deviation of the noise of each statistic near the posterior, at least their resolution.
 Eigen::VectorXd noise_of(const ParameterSearch& search);
 
 /// A model and the predictive samples of each experiment that its scores are based on.

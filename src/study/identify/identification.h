@@ -34,6 +34,7 @@ struct FamilyCheck {
   double amount = 0, sd = 0;               ///< estimated amount, in `unit`
   double t = 0, p = 1;                     ///< Student's t of the score test, and its p-value
   double explained = 0;                    ///< fraction of the squared deviations that it removes
+  double effect = 0;                       ///< largest change of a statistic by this amount
   bool significant = false;                ///< at the level of all tests of a model together
   bool named = false;                      ///< significant, and not clearly worse than the best family
 };

@@ -41,9 +41,11 @@ Json sampled_json(const IdentifyStudy& s) {
 }
 
 Json family_json(const FamilyCheck& c) {
-  return {{"aspect", c.aspect}, {"what", c.what},           {"amount", c.amount},
-          {"sd", c.sd},         {"unit", c.unit},           {"t", c.t},
-          {"p", c.p},           {"explained", c.explained}, {"significant", c.significant}};
+  return {{"aspect", c.aspect}, {"what", c.what},
+          {"amount", c.amount}, {"sd", c.sd},
+          {"unit", c.unit},     {"t", c.t},
+          {"p", c.p},           {"explained", c.explained},
+          {"effect", c.effect}, {"significant", c.significant}};
 }
 
 }  // namespace

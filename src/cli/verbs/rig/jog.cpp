@@ -11,6 +11,7 @@
 #include <limits>
 #include <optional>
 
+#include "app/bench/bench_controls.h"
 #include "app/bench/coil_jog.h"
 #include "app/bench/open_bench.h"
 #include "cli/command_line.h"
@@ -116,13 +117,13 @@ int rig_jog(const JogVerb& v, const Common& c) {
   const double step = quantity_of(v.step, "A", "--step", "50 mA");
   if (!(step > 0))
     throw Error(Errc::usage, "--step", fmt::format("{:g} A is out of range; it must be positive", step));
-  if (const double largest = std::ranges::max(s.rig->max_current()); step > largest)
+  if (const double largest = std::ranges::max(permitted_currents(s)); step > largest)
     throw Error(Errc::usage, "--step",
                 fmt::format("{:g} A is out of range; the maximum of the coils of this bench is {:g} A", step,
                             largest));
   const OpenBench bench(s, s.params.seed.value_or(1), OpenBench::Open::coils);
   GuardLink coils(bench.guard_setup({}));
-  CoilJog jog(coils, *s.rig);
+  CoilJog jog(coils, s);
   std::size_t selected = 0;
   std::string shown;
   Keyboard keys;

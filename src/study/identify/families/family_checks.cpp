@@ -78,8 +78,10 @@ void sort_and_name(std::vector<FamilyCheck>& checks) {
   std::stable_sort(checks.begin(), checks.end(), [](const auto& a, const auto& b) { return a.p < b.p; });
   double best = 0;
   for (FamilyCheck& c : checks) {
-    // An extension that does not bring the prediction nearer to the videos explains nothing.
-    c.significant = c.p < kFamilyLevel / double(checks.size()) && c.explained > 0;
+    // An extension that does not bring the prediction nearer to the videos explains nothing, and one whose
+    // effect is below the resolution of the statistics explains an error of the measurement.
+    c.significant =
+        c.p < kFamilyLevel / double(checks.size()) && c.explained > 0 && c.effect >= kStatisticResolution;
     if (c.significant) best = std::max(best, c.t * c.t);
   }
   for (FamilyCheck& c : checks) c.named = c.significant && c.t * c.t > best - kEqual;
@@ -123,7 +125,7 @@ void test_families(SearchedModel& m, const Tested& t, const ObservedStatistics& 
     const ModelFamily& family = t.families[f];
     const ScoreTest test = score_test(prediction, o.numbers, t.changes[f], family.two_sided);
     checks.push_back({family.aspect, family.what, family.unit, family.advice, test.amount * family.amount,
-                      test.sd * family.amount, test.t, test.p, test.explained});
+                      test.sd * family.amount, test.t, test.p, test.explained, test.effect});
   }
   sort_and_name(checks);
   for (std::size_t c = 0; c < checks.size(); ++c)

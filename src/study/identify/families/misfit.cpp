@@ -63,6 +63,7 @@ ScoreTest score_test(const ModelPrediction& m, const VectorXd& observed, const V
   t.sd = std::sqrt(amounts.squaredNorm() / (n - 1) * (1 + 1 / n));
   if (!(t.sd > 0)) return t;
   t.t = t.amount / t.sd;
+  t.effect = (t.amount * change).cwiseAbs().maxCoeff();
   const double upper = 1 - student_t_cdf(two_sided ? std::fabs(t.t) : t.t, n - 1);
   t.p = std::min(1.0, two_sided ? 2 * upper : upper);
   const VectorXd noise = noise_of(m), before = (observed - mean).cwiseQuotient(noise),

@@ -17,6 +17,7 @@ struct ScoreTest {
   double amount = 0, sd = 0;  ///< estimated amount of a change of the model, in units of that change
   double t = 0, p = 1;        ///< Student's t and its p-value
   double explained = 0;       ///< fraction of the squared deviation, in units of noise, that it removes
+  double effect = 0;          ///< largest change of a statistic by this amount
 };
 
 /// Score test (Rao 1948) of a change of the model that shifts the statistics by `change`, when all parameters
