@@ -56,7 +56,7 @@ await step('the camera opens, with picture, estimate and histogram; the bar show
   const before = (await read('frames'))[0];
   await until(async () => (await read('frames'))[0] > before, 'the frames are counted');
   await page.getByRole('img', { name: /^Histogram of the grey levels: mean \d+ of 255/ }).waitFor();
-  await shot('bench');
+  await shot('console');
 });
 
 await step('the air exposure of the sample is a clock', async () => {

@@ -3,8 +3,8 @@
 import { get, post } from '../connection';
 import type { BenchState } from './state';
 
-const kShown = 250; // ms between requests while the console is visible
-const kElsewhere = 2000; // ms on other pages while coils are armed or an activity runs
+const kPause = 250; // ms between requests while the console is visible
+const kElsewhere = 2000; // ms without news on other pages, while coils are armed or an activity runs
 
 /** What the bench needs to know of the connection of the page. */
 export interface PageNumber {
@@ -16,8 +16,8 @@ export class Bench {
   now = $state.raw<BenchState>({ open: null });
   /** The server has reported the state since the connection was established. */
   known = $state(false);
-  /** Time of the newest state, ms, on the clock of performance.now(). */
-  heard = $state(0);
+  /** Time of the newest state, ms. */
+  private heard = 0;
   /** The console is shown: it needs the complete state often. */
   shown = $state(false);
   /** Why the request to switch the coils off got no answer. */
@@ -56,8 +56,9 @@ export class Bench {
   /** Requests the state until `stopped`. */
   async follow(stopped: () => boolean) {
     while (!stopped()) {
-      if (this.connected && (this.shown || this.isBusy)) await this.refresh();
-      await new Promise((go) => setTimeout(go, this.shown && !document.hidden ? kShown : kElsewhere));
+      const visible = this.shown && !document.hidden, old = performance.now() - this.heard > kElsewhere;
+      if (this.connected && (visible || (old && this.isBusy))) await this.refresh();
+      await new Promise((go) => setTimeout(go, kPause));
     }
   }
   get isBusy() {
