@@ -71,7 +71,7 @@ await step('the page Analyse lists the kinds by group', async () => {
   await tab('Analyse');
   for (const group of ['Videos and pictures', 'Models', 'Control', 'Coils']) await page.getByRole('heading', { name: group }).waitFor();
   const kinds = await page.evaluate(() => fetch('/api/job-kinds').then((r) => r.json()));
-  assert.equal(await page.locator('section li a').count(), kinds.length + 1, 'one link for each kind, and the sweep');
+  assert.equal(await page.locator('section li a').count(), kinds.length + 2, 'one link for each kind, the sweep, and the coil editor');
   await shot('analyse');
 });
 

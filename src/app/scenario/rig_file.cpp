@@ -10,11 +10,14 @@
 namespace faba {
 
 FieldRegistry::PartType read_rig(const std::filesystem::path& file, const Parts& parts) {
-  Document d = read_toml(file);
+  return read_rig(read_toml(file), parts);
+}
+
+FieldRegistry::PartType read_rig(Document d, const Parts& parts) {
   d.table_reader = parts.readers.table;
   require_kind(Node(d), FileKind::coil_system);
   if (!d.root.contains("coil"))
-    throw Error(Errc::usage, file.string(),
+    throw Error(Errc::usage, d.name,
                 "is not a coil system file: [[coil]] not found; see the examples in rigs/");
   d.root["type"] = parts.field.names_with(Trait::coil_system).front();
   return parts.field.resolve(Node(d));

@@ -8,6 +8,9 @@ namespace faba {
 /// Reads a coil system file (TOML): [[coil]] and [earth]. Throws Error(usage) with file, line and reason.
 FieldRegistry::PartType read_rig(const std::filesystem::path& file, const Parts& parts);
 
+/// The same from a document in memory.
+FieldRegistry::PartType read_rig(Document d, const Parts& parts);
+
 /// JSON Schema of a coil system file.
 Json rig_file_json_schema(const Parts& parts);
 

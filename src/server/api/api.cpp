@@ -44,6 +44,7 @@ Api::Api(const Workspace& workspace, JobList& jobs, fs::path pictures, fs::path 
   add_upload_routes(routes_, lab_);
   add_video_routes(routes_, lab_);
   add_bench_routes(routes_, lab_);
+  add_coil_routes(routes_, lab_);
 }
 
 WebResponse Api::answer(const WebRequest& r) {

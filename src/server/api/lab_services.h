@@ -32,6 +32,7 @@ Json trash_item_json(const Trash::Item& item);
 
 // Each adds the requests of one concept; see web/protocol.md. The services must outlive the routes.
 void add_bench_routes(Routes& routes, const LabServices& lab);
+void add_coil_routes(Routes& routes, const LabServices& lab);
 void add_experiment_routes(Routes& routes, const LabServices& lab);
 void add_folder_routes(Routes& routes, const LabServices& lab);
 void add_gallery_routes(Routes& routes, const LabServices& lab);

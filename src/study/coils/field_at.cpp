@@ -16,13 +16,6 @@ std::unique_ptr<Field> rig_of(const std::filesystem::path& file) {
 
 std::string in_mm(Vec2 at) { return fmt::format("({:g}, {:g}) mm", 1e3 * at.x, 1e3 * at.y); }
 
-// The name of the first coil that contains a position; empty if none does.
-std::string coil_around(const Field& field, Vec2 at) {
-  for (std::size_t k = 0; k < field.coils(); ++k)
-    if (field.encloses(k, {at.x, at.y, 0})) return field.circuit(k).name;
-  return "";
-}
-
 // A zero aligns cells only where the field is larger than kT / m; closer to it they swim in random
 // directions. Empty unless this distance is larger than a sample.
 std::string weak_gradient_note(const FieldNull& n) {
@@ -41,6 +34,12 @@ std::string weak_gradient_note(const FieldNull& n) {
 }
 
 }  // namespace
+
+std::string coil_around(const Field& field, Vec2 at) {
+  for (std::size_t k = 0; k < field.coils(); ++k)
+    if (field.encloses(k, {at.x, at.y, 0})) return field.circuit(k).name;
+  return "";
+}
 
 std::string position_note(const Field& field, const FieldNull& n, Vec2 at) {
   if (const std::string coil = coil_around(field, at); !coil.empty())

@@ -22,6 +22,9 @@ FieldAtPoints field_at_points(const std::filesystem::path& rig, const std::files
 /// there.
 FieldNull checked_null_at(const Field& field, const std::filesystem::path& rig, Vec2 at, int polarity);
 
+/// Name of the first coil that has a position in its bore, winding or core; empty if none does.
+std::string coil_around(const Field& field, Vec2 at);
+
 /// A note on a zero at a position inside a coil, or with a gradient too weak for cells; empty for others.
 std::string position_note(const Field& field, const FieldNull& n, Vec2 at);
 

@@ -41,23 +41,6 @@ Map computed(const Field& field, const std::vector<double>& current, const Field
   return m;
 }
 
-/// All zeros in the rectangle, searched from a grid of points; zeros within 0.1 % of its width are equal.
-std::vector<Vec2> zeros_in(const Field& field, const std::vector<double>& current, const FieldMapOptions& o) {
-  std::vector<Vec2> found;
-  if (std::all_of(current.begin(), current.end(), [](double i) { return i == 0; })) return found;
-  constexpr int kStartsPerSide = 21;
-  for (int i = 0; i < kStartsPerSide; ++i)
-    for (int j = 0; j < kStartsPerSide; ++j) {
-      const Vec2 from{o.width * ((i + 0.5) / kStartsPerSide - 0.5),
-                      o.height * ((j + 0.5) / kStartsPerSide - 0.5)};
-      const Vec2 at = find_null(field, current, from);
-      if (!(std::fabs(at.x) <= o.width / 2 && std::fabs(at.y) <= o.height / 2)) continue;
-      if (std::none_of(found.begin(), found.end(), [&](Vec2 f) { return norm(f - at) < 1e-3 * o.width; }))
-        found.push_back(at);
-    }
-  return found;
-}
-
 const char* kind_of(const NullGradient& g) {
   return g[1] < 0 ? "traps north-seekers" : g[0] > 0 ? "traps south-seekers" : "saddle";
 }
@@ -135,6 +118,24 @@ std::optional<FieldMap::Table> table_of(const Field& field, const FieldMapOption
 
 }  // namespace
 
+std::vector<FieldMap::Zero> field_zeros(const Field& field, const std::vector<double>& current, double width,
+                                        double height, int starts) {
+  std::vector<FieldMap::Zero> found;
+  if (std::all_of(current.begin(), current.end(), [](double i) { return i == 0; })) return found;
+  for (int i = 0; i < starts; ++i)
+    for (int j = 0; j < starts; ++j) {
+      const Vec2 from{width * ((i + 0.5) / starts - 0.5), height * ((j + 0.5) / starts - 0.5)};
+      const Vec2 at = find_null(field, current, from);
+      if (!(std::fabs(at.x) <= width / 2 && std::fabs(at.y) <= height / 2)) continue;
+      if (std::any_of(found.begin(), found.end(),
+                      [&](const FieldMap::Zero& f) { return norm(f.at - at) < 1e-3 * width; }))
+        continue;
+      const NullGradient g = null_gradient(field, current, at);
+      found.push_back({at, g, kind_of(g)});
+    }
+  return found;
+}
+
 FieldMap field_map(const std::filesystem::path& rig, const FieldMapOptions& o) {
   const auto field = read_rig(rig, builtin_parts()).make({});
   const std::vector<double> current = o.current.empty() ? field->default_currents() : o.current;
@@ -157,10 +158,7 @@ FieldMap field_map(const std::filesystem::path& rig, const FieldMapOptions& o) {
                        fmt::join(std::vector<double>(current.size(), 0.5), ","));
   const Map m = computed(*field, current, o);
   FieldMap map{current, note, {}, 0, {}};
-  for (const Vec2 at : zeros_in(*field, current, o)) {
-    const NullGradient g = null_gradient(*field, current, at);
-    map.zeros.push_back({at, g, kind_of(g)});
-  }
+  map.zeros = field_zeros(*field, current, o.width, o.height);
   std::size_t known = 0;
   for (const Vec3& v : m.b) {
     if (!std::isfinite(v.x + v.y)) continue;

@@ -38,6 +38,10 @@ struct FieldMap {
   double strongest = 0;        ///< T, in the plane
   std::optional<Table> table;  ///< empty when a coil is inside the rectangle and a picture or file is written
 };
+/// The zeros of the in-plane field in a rectangle about the centre, searched from a grid of `starts` x
+/// `starts` points; zeros within 0.1 % of its width are equal. None if all currents are zero.
+std::vector<FieldMap::Zero> field_zeros(const Field& field, const std::vector<double>& current, double width,
+                                        double height, int starts = 21);
 /// Computes the map; draws it and writes it as HDF5 (`b_t`, rows by columns by (x, y, z), from the top;
 /// `x_m`, `y_m`) when requested. Throws Error(usage) when a coil is inside the rectangle and nothing is
 /// written, and when the field is unknown in all of the rectangle.

@@ -11,6 +11,48 @@ using Json = nlohmann::ordered_json;
 
 Json pair_json(Vec2 v) { return {v.x, v.y}; }
 
+Json zero_json(const FieldMap::Zero& z) {
+  return {{"at_m", pair_json(z.at)}, {"eigenvalues_t_per_m", z.gradient}, {"kind", z.kind}};
+}
+
+Json null_json(const FieldNull& n) {
+  return {{"currents_a", n.current},
+          {"eigenvalues_t_per_m", n.gradient},
+          {"dbz_dz_t_per_m", n.out_of_plane},
+          {"reachable", n.reachable},
+          {"saddle", n.saddle}};
+}
+
+Json criterion_json(const HoldStrength::Criterion& c) {
+  return {{"available", c.available}, {"required", c.required}, {"met", c.met()}};
+}
+
+Json hold_json(const HoldStrength& h) {
+  Json j;
+  j["steering_t"] = criterion_json(h.steering);
+  j["for_alignment_t"] = h.for_alignment;
+  j["for_turning_t"] = h.for_turning;
+  j["weakest_rad"] = h.weakest.angle;
+  j["around_t"] = h.around;
+  j["alignment"] = h.alignment;
+  j["turning_per_s"] = h.turning;
+  j["u_turn_m"] = h.u_turn;
+  j["trap_t_per_m"] = criterion_json(h.trap);
+  j["swarm_sd_m"] = h.swarm_sd;
+  return j;
+}
+
+// The field of a grid for display, in nT and rounded: a short text.
+Json grid_json(const std::vector<Vec3>& grid) {
+  Json list = Json::array();
+  const auto rounded = [](double tesla) {
+    return std::isfinite(tesla) ? Json(std::llround(1e9 * tesla)) : Json();
+  };
+  for (const Vec3& b : grid)
+    for (const double v : {b.x, b.y, b.z}) list.push_back(rounded(v));
+  return list;
+}
+
 Json null_if_nan(const std::array<double, 3>& values) {
   Json list = Json::array();
   for (const double v : values) list.push_back(std::isnan(v) ? Json() : Json(v));
@@ -39,11 +81,7 @@ Json field_json(const RigNull& n) {
   Json j;
   j["at_m"] = pair_json(n.at);
   j["coils"] = n.coils;
-  j["currents_a"] = n.null.current;
-  j["eigenvalues_t_per_m"] = n.null.gradient;
-  j["dbz_dz_t_per_m"] = n.null.out_of_plane;
-  j["reachable"] = n.null.reachable;
-  j["saddle"] = n.null.saddle;
+  j.update(null_json(n.null));
   j["note"] = n.note;
   return j;
 }
@@ -53,8 +91,7 @@ Json field_json(const FieldMap& m) {
   j["currents_a"] = m.current;
   j["note"] = m.note;
   j["zeros"] = Json::array();
-  for (const FieldMap::Zero& z : m.zeros)
-    j["zeros"].push_back({{"at_m", pair_json(z.at)}, {"eigenvalues_t_per_m", z.gradient}, {"kind", z.kind}});
+  for (const FieldMap::Zero& z : m.zeros) j["zeros"].push_back(zero_json(z));
   j["strongest_t"] = m.strongest;
   j["table"] = nullptr;
   if (m.table)
@@ -62,6 +99,19 @@ Json field_json(const FieldMap& m) {
                   {"columns", m.table->columns},
                   {"rows", m.table->rows},
                   {"error", m.table->error}};
+  return j;
+}
+
+Json field_json(const CoilDesign& d) {
+  Json j{{"coils", d.coils}, {"limits_a", d.limit}};
+  j["grids_nt"] = Json::array();
+  for (const auto& grid : d.grids) j["grids_nt"].push_back(grid_json(grid));
+  j["probe_t"] = {d.probe.x, d.probe.y, d.probe.z};
+  j["zeros"] = Json::array();
+  for (const FieldMap::Zero& z : d.zeros) j["zeros"].push_back(zero_json(z));
+  j["trap"] = null_json(d.trap);
+  j["inside"] = d.inside;
+  j["hold"] = hold_json(d.hold);
   return j;
 }
 

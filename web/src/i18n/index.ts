@@ -5,6 +5,7 @@ import * as analyse from './analyse';
 import * as app from './app';
 import * as assistant from './assistant';
 import * as bench from './bench';
+import * as coils from './coils';
 import * as experiments from './experiments';
 import * as form from './form';
 import * as gallery from './gallery';
@@ -23,6 +24,7 @@ const en = {
   ...app.en,
   ...assistant.en,
   ...bench.en,
+  ...coils.en,
   ...experiments.en,
   ...form.en,
   ...gallery.en,
@@ -41,6 +43,7 @@ const pt = {
   ...app.pt,
   ...assistant.pt,
   ...bench.pt,
+  ...coils.pt,
   ...experiments.pt,
   ...form.pt,
   ...gallery.pt,

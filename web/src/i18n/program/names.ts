@@ -1,7 +1,7 @@
 /** Portuguese names of sections of a scenario, verbs and steps of a job, by the text of the program. */
 export const names: Record<string, string> = {
   swarm: 'enxame', model: 'modelo', start: 'posições iniciais', controller: 'controlador', reference: 'referência', estimator: 'estimador', field: 'campo', motility: 'motilidade', scale: 'escala', camera: 'câmera',
-  limits: 'limites', exclusion: 'exclusão', simulation: 'simulação', record: 'gravação', microscope: 'microscópio', flow: 'fluxo óptico', rig: 'bancada', library: 'biblioteca', coil: 'bobina', 'x pair': 'par x', 'y pair': 'par y', segment: 'segmento',
+  limits: 'limites', exclusion: 'exclusão', simulation: 'simulação', record: 'gravação', microscope: 'microscópio', flow: 'fluxo óptico', rig: 'bancada', library: 'biblioteca', coil: 'bobina', 'x pair': 'par x', 'y pair': 'par y', right: 'direita', top: 'superior', left: 'esquerda', bottom: 'inferior', segment: 'segmento',
   activity: 'atividade', compare: 'comparação', identify: 'identificação', 'compare-controllers': 'comparação de controladores', 'field map': 'mapa do campo', track: 'rastreamento', moving: 'em movimento', still: 'parada', drifting: 'à deriva',
   calibration: 'calibração', typed: 'digitada', metadata: 'metadados',
   simulating: 'simulando', 'simulating with another seed': 'simulando com outra semente', measuring: 'medindo', tracking: 'rastreando', trials: 'ensaios', capturing: 'capturando', replaying: 'reproduzindo',

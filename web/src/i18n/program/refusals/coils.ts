@@ -35,6 +35,18 @@ export const coils: Record<string, string> = {
   'the sizes of the tables do not match': 'os tamanhos das tabelas não coincidem',
   'resolution_px and rows_per_chunk must be larger than 0': 'resolution_px e rows_per_chunk devem ser maiores que 0',
   'the position {} px does not fit into 16 bits of {} px; increase the resolution': 'a posição {} px não cabe em 16 bits de {} px; aumente a resolução',
+  // server/api/coils, study/coils/coil_design
+  '"{}" has no cells that the field turns; it must be a model with a magnetic moment, such as "dipole"': '"{}" não tem células que o campo gira; deve ser um modelo com momento magnético, como "dipole"',
+  '"{}" is not a valid name; it must have at most {} letters (a to z), digits, - and _, and not begin with -': '"{}" não é um nome válido; deve ter no máximo {} letras (de a a z), dígitos, - e _, e não começar com -',
+  'is a measured map, which the editor cannot draw; edit the file as text, and use the analyses of coil systems': 'é um mapa medido, que o editor não pode desenhar; edite o arquivo como texto e utilize os cálculos de sistemas de bobinas',
+  'missing; it must be a number': 'ausente; deve ser um número',
+  'missing; it must be a table with the coils': 'ausente; deve ser uma tabela com as bobinas',
+  'must be a list of {} coordinates in m, each between {} and {} m': 'deve ser uma lista de {} coordenadas em m, cada uma entre {} e {} m',
+  'must be an integer between 1 and {}': 'deve ser um número inteiro entre 1 e {}',
+  'the coil system has no coils; add at least one': 'o sistema de bobinas não tem bobinas; adicione pelo menos uma',
+  'the coil system has {} coils; it must have at most {}': 'o sistema de bobinas tem {} bobinas; deve ter no máximo {}',
+  'unknown polarity "{}"; it must be north or south': 'polaridade desconhecida "{}"; deve ser north ou south',
+  '{} {} is out of range; it must be between {} and {} {}': '{} {} está fora do intervalo permitido; deve estar entre {} e {} {}',
   // cli/verbs/field
   'fit, evaluations of the field': 'ajuste, avaliações do campo',
   '"{}" is out of range; it must be positive and at most the longer side of the rectangle ({} mm); omit the option for a 64th of this side': '"{}" está fora do intervalo permitido; deve ser positivo e no máximo o lado maior do retângulo ({} mm); omita a opção para um 64 avos deste lado',

@@ -1,0 +1,102 @@
+#include "study/coils/coil_design.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "study/coils/field_at.h"
+
+namespace faba {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// m B / kT of a field in which the swarm is aligned: the mean cosine is 0.893 (theory B3, law 1).
+constexpr double kAligned = 5;
+constexpr int kDirections = 72;
+
+// Mean cosine of headings in a field with k = m B / kT, I_1(k) / I_0(k), as a continued fraction (B3).
+double alignment_at(double k) {
+  if (!(k > 0)) return 0;
+  if (k > 1e3) return 1 - 0.5 / k;
+  double fraction = 0;
+  for (int n = 40 + int(2 * k); n > 0; --n) fraction = 1 / (2 * n / k + fraction);
+  return fraction;
+}
+
+std::vector<Vec3> grid_points(const CoilDesignOptions& o, CoilDesignOptions::Plane plane) {
+  std::vector<Vec3> at;
+  const auto place = [](int i, int n, double size) { return ((i + 0.5) / n - 0.5) * size; };
+  for (int row = 0; row < o.rows; ++row)
+    for (int column = 0; column < o.columns; ++column) {
+      const double right = place(column, o.columns, o.width), up = -place(row, o.rows, o.height);
+      at.push_back(plane == CoilDesignOptions::Plane::top ? Vec3{right, up, 0} : Vec3{right, 0, up});
+    }
+  return at;
+}
+
+void add_steering(HoldStrength& h, const FieldRange& range, const CoilDesignOptions& o) {
+  const FieldResponse& cell = o.cell;
+  h.weakest = range.weakest();
+  for (int i = 0; i < kDirections; ++i) h.around.push_back(range.along(2 * kPi * i / kDirections));
+  h.for_alignment = cell.turning > 0 ? kAligned * cell.diffusion / cell.turning : kInfinity;
+  h.for_turning = cell.turning > 0 ? kPi * cell.speed / (cell.turning * o.sample) : kInfinity;
+  h.steering = {h.weakest.tesla, std::max(h.for_alignment, h.for_turning)};
+  h.turning = cell.turning * h.weakest.tesla;
+  h.alignment = cell.diffusion > 0 ? alignment_at(h.turning / cell.diffusion) : double(h.turning > 0);
+  h.u_turn = h.turning > 0 ? kPi * cell.speed / h.turning : kInfinity;
+}
+
+void add_trap(HoldStrength& h, const FieldNull& trap, const CoilDesignOptions& o) {
+  const FieldResponse& cell = o.cell;
+  const double half = o.sample / 2;
+  h.trap.required = cell.turning > 0 ? cell.speed / (cell.turning * half * half) : kInfinity;
+  if (!trap.reachable) return;
+  h.trap.available = o.polarity > 0 ? -trap.gradient[1] : trap.gradient[0];
+}
+
+HoldStrength hold_strength(const Field& field, const FieldNull& trap, std::span<const double> most,
+                           const CoilDesignOptions& o) {
+  HoldStrength h;
+  add_steering(h, FieldRange(field, {o.target.x, o.target.y, 0}, most), o);
+  add_trap(h, trap, o);
+  const double slope = o.cell.turning * h.trap.available;
+  h.swarm_sd = slope > 0 ? std::sqrt(o.cell.speed / slope) : kInfinity;
+  return h;
+}
+
+}  // namespace
+
+CoilDesign coil_design(const Field& field, const CoilDesignOptions& o) {
+  CoilDesign d;
+  for (std::size_t k = 0; k < field.coils(); ++k) d.coils.push_back(field.circuit(k).name);
+  d.limit = current_limits(field);
+  const std::vector<double> current = field.default_currents();
+  for (const CoilDesignOptions::Plane plane : o.planes) {
+    const std::vector<Vec3> at = grid_points(o, plane);
+    d.grids.emplace_back(at.size());
+    field.at(at, current, d.grids.back());
+  }
+  d.probe = field.at(o.probe, current);
+  constexpr int kFastStarts = 7, kStarts = 21;
+  d.zeros = field_zeros(field, current, o.width, o.height, o.fast ? kFastStarts : kStarts);
+  d.inside = coil_around(field, o.target);
+  d.trap = null_at(field, o.target, o.polarity, d.limit);
+  d.hold = hold_strength(field, d.trap, d.limit, o);
+  return d;
+}
+
+FieldResponse field_response(const ModelRegistry::PartType& model) {
+  const auto response = model.make({Scale{}, Scale{}.iteration})->field_response();
+  if (!response)
+    throw Error(Errc::usage, "model",
+                fmt::format("\"{}\" has no cells that the field turns; it must be a model with a magnetic "
+                            "moment, such as \"dipole\"",
+                            model.type));
+  return *response;
+}
+
+}  // namespace faba
