@@ -279,7 +279,9 @@ await step('camera of a bench: picture, gain, and calibration with a ruler', asy
   await open('bench');
   const first = await picture.getAttribute('src');
   await until(async () => (await picture.getAttribute('src')) !== first, 'the picture is updated');
-  await until(async () => /[1-9]\d*\.\d Hz/.test(await page.locator('figcaption').textContent()), 'the frame rate is shown');
+  await until(async () => /[1-9]\d*\.\d Hz/.test(await page.locator('.caption').textContent()), 'the frame rate is shown');
+  const part = (name) => page.getByRole('navigation', { name: 'Bench' }).getByRole('link', { name, exact: true }).click();
+  await part('Scale');
   await page.getByRole('button', { name: 'Measure the ruler' }).click();
   const missing = page.getByRole('alert').filter({ hasText: 'no ruler detected' });
   await missing.waitFor();
@@ -287,6 +289,7 @@ await step('camera of a bench: picture, gain, and calibration with a ruler', asy
   await missing.getByRole('button', { name: 'Close' }).click();
   complaints.length = 0; // the browser logs the refused request
   const before = await mean();
+  await part('Camera');
   await page.getByLabel('Gain').fill('0.5');
   await page.getByLabel('Gain').press('Enter');
   await until(async () => Math.abs((await mean()) - before / 2) < 3, 'the picture has half the brightness');
@@ -294,6 +297,7 @@ await step('camera of a bench: picture, gain, and calibration with a ruler', asy
   await page.getByLabel('Gain').press('Enter');
   const alert = page.getByRole('alert').filter({ hasText: 'between 0.1 and 10' });
   await alert.waitFor();
+  assert.equal(await page.getByLabel('Gain').inputValue(), '0.5'); // that of the camera
   await alert.getByRole('button', { name: 'Close' }).click();
   await alert.waitFor({ state: 'detached' });
   complaints.length = 0; // the browser logs the refused request
@@ -303,6 +307,7 @@ await step('camera of a bench: picture, gain, and calibration with a ruler', asy
   await shot('bench');
   await page.getByRole('button', { name: 'Close the camera' }).click();
   await open('ruler');
+  await part('Scale');
   await page.getByLabel('Objective').fill('20x');
   await page.getByLabel('Distance between marks').fill('10');
   await page.getByRole('button', { name: 'Measure the ruler' }).click();

@@ -7,6 +7,7 @@
 using namespace faba;
 using test::Served;
 using test::status_of;
+namespace fs = std::filesystem;
 
 TEST_CASE(
     "pictures: errors have the name of the user's file, and no file outside of the workspace is shown") {
@@ -65,4 +66,38 @@ TEST_CASE("the index of the gallery orders the scenes; the others and a damaged 
   CHECK(two["controller"] == "fuzzy");
   write_file(lab.folder() / "scenes/gallery.toml", "[[scene]]\npurpose = 'fun'\n");
   CHECK(names() == std::vector<std::string>{"gallery.toml", "one", "two"});
+}
+
+TEST_CASE("a copy of a scene may differ in the tables of its coils only") {
+  const Served lab;
+  const std::string json = lab.own() + "Content-Type: application/json\r\n";
+  const std::string scene = "# A bench.\n[[swarm]]\ncount = 1\n[rig]\n";
+  write_file(lab.folder() / "scenes/bench.toml", scene);
+  const auto save = [&](const std::string& name, const std::string& toml, const char* of = "bench") {
+    return lab.ask("POST /api/scenes", json, Json{{"name", name}, {"copy_of", of}, {"toml", toml}}.dump());
+  };
+  const std::string coil =
+      "[[rig.coil]]\nchannel = 'a'\npolarity = -1\n[[rig.coil]]\nchannel = 'b'\ntable = [[0, -0.5], [5, "
+      "0.5]]\n";
+  const std::string two = scene + coil;
+  const std::string a = save("measured", two);
+  INFO(a);
+  REQUIRE(status_of(a) == 200);
+  CHECK(Json::parse(test::body_of(a)) == Json({{"name", "measured"}, {"file", "scenes/measured.toml"}}));
+  CHECK(read_file(lab.folder() / "scenes/measured.toml") == two);
+  CHECK(status_of(save("measured", two)) >= 400);  // exists
+  CHECK(status_of(save("none", two, "none")) >= 400);
+  for (const char* bad : {"", "../out", "a/b", ".hidden", "ponto.ção"}) {
+    INFO(bad);
+    CHECK(status_of(save(bad, two)) >= 400);
+  }
+  const std::string driver = scene + "driver = { type = 'nidaqmx', library = '/tmp/other.so' }\n" + coil;
+  for (const std::string& other :
+       {driver, scene + "[[rig.coil]]\nchannel = 'a'\npolarity = 3\n[[rig.coil]]\nchannel = 'b'\n",
+        std::string("not toml"), scene + "[arena]\ntype = 'box'\n"}) {
+    INFO(other);
+    CHECK(status_of(save("other", other)) >= 400);
+    CHECK_FALSE(fs::exists(lab.folder() / "scenes/other.toml"));
+    CHECK(save("other", other).find(lab.folder().string()) == std::string::npos);
+  }
 }

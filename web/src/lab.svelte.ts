@@ -1,5 +1,6 @@
 // State of the lab in the page: one object shared by all components.
 
+import { Bench } from './bench/bench.svelte';
 import { Changes } from './changes.svelte';
 import { Connection, get, type Answer, type News, type RequestError } from './connection';
 import type { Schema } from './form/schema';
@@ -82,6 +83,7 @@ export class Lab {
   readonly series = new Series();
   readonly link: Connection;
   readonly changes = new Changes();
+  readonly bench: Bench = new Bench(this);
 
   /** This page controls the run. False without a connection: all controls of the run are disabled. */
   readonly steers = $derived(this.connected && this.page !== 0 && this.page === this.steering);
@@ -149,6 +151,9 @@ export class Lab {
         this.frame = null;
         break;
       }
+      case 'bench':
+        this.bench.take(n.state);
+        break;
       case 'experiment':
         this.experimentNews = { name: n.name, count: this.experimentNews.count + 1 };
         break;

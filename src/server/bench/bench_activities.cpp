@@ -56,7 +56,7 @@ void BenchConsole::capture(CaptureJob job, BenchDestination to) {
           const std::size_t bytes = std::size_t(camera->width()) * std::size_t(camera->height());
           job.progress = [&a](std::uint64_t done, std::uint64_t total) { a.progress(done, total); };
           job.live = [&a, bytes](const Captured& c) { a.captured(c, bytes); };
-          a.out(shown(to, job.out));
+          a.out(shown(to, job.out), to.experiment);
           const Captured done = faba::capture(camera, job);
           a.captured(done, bytes);
           if (done.kept == 0) throw Error(Errc::input, "capture", "no frame was kept; there is no recording");
@@ -78,7 +78,7 @@ void BenchConsole::run(double duration_s, BenchDestination to, std::uint64_t pag
           b.stop_view();
           const auto open = std::make_shared<OpenBench>(s, b.seed(), OpenBench::Open::all, b.devices(&a));
           BenchSession session = BenchSession::begin(s, open, b.seed(), options_of(to, a));
-          a.out(shown(to, session.dir()));
+          a.out(shown(to, session.dir()), to.experiment);
           const bool complete = run_with_report(session);
           recorded_({.path = session.dir(),
                      .experiment = to.experiment,
@@ -106,7 +106,7 @@ void BenchConsole::step_responses(const Json& changes, BenchDestination to, std:
     job.run = options_of(to, a);
     job.devices = b.devices(&a);
     int made = 0;
-    a.out(shown(to, to.out));
+    a.out(shown(to, to.out), to.experiment);
     a.item(1, p.repeat);
     job.done = [&](const RecordedResponse& r) {
       write_run_report(r.dir, read_run_info(r.dir / run_files::kManifest), read_series(r.dir / "series.csv"));

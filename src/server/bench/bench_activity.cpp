@@ -23,6 +23,7 @@ void BenchActivity::coils(const std::vector<double>& current, const GuardReport&
 
 void BenchActivity::progress(std::uint64_t done, std::uint64_t total) {
   const std::lock_guard lock(mutex_);
+  if (total_ == 0) first_ = {monotonic_now(), done};
   done_ = done;
   total_ = total;
 }
@@ -39,9 +40,10 @@ void BenchActivity::item(int index, int of) {
   of_ = of;
 }
 
-void BenchActivity::out(const std::string& path) {
+void BenchActivity::out(const std::string& path, const std::string& experiment) {
   const std::lock_guard lock(mutex_);
   out_ = path;
+  experiment_ = experiment;
 }
 
 bool BenchActivity::armed() const {
@@ -84,9 +86,11 @@ void BenchActivity::describe(Json& state) const {
             {"left_s", nullptr},
             {"armed", guard_ && guard_->state == CoilGuard::State::armed},
             {"out", out_},
+            {"experiment", experiment_.empty() ? Json() : Json(experiment_)},
             {"stopping", stop.load()}};
-  if (total_ > 0 && done_ > 0 && done_ <= total_)
-    a["left_s"] = elapsed * double(total_ - done_) / double(done_);
+  // From the first report of the progress: devices are opened before it.
+  if (done_ > first_.second && done_ <= total_)
+    a["left_s"] = (monotonic_now() - first_.first) * double(total_ - done_) / double(done_ - first_.second);
   if (of_ > 0) a.update({{"index", index_}, {"of", of_}});
   if (captured_) {
     const Memory memory = memory_of_machine();

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "app/bench/bench_watcher.h"
 #include "app/bench/capture.h"
@@ -37,7 +38,7 @@ class BenchActivity final : public BenchWatcher {
   void captured(const Captured& so_far, std::size_t picture_bytes);
   /// Item `index`, from 1, of a series of `of`.
   void item(int index, int of);
-  void out(const std::string& path);
+  void out(const std::string& path, const std::string& experiment);
   bool armed() const;
   std::optional<GuardReport> guard() const;
 
@@ -55,10 +56,11 @@ class BenchActivity final : public BenchWatcher {
   std::optional<GuardReport> guard_;
   std::optional<Vec2> setpoint_px_;
   std::uint64_t done_ = 0, total_ = 0;
+  std::pair<double, std::uint64_t> first_;  ///< time of the first report of the progress, s, and its `done`
   std::optional<Captured> captured_;
   std::size_t picture_bytes_ = 0;
   int index_ = 0, of_ = 0;
-  std::string out_;
+  std::string out_, experiment_;
 };
 
 }  // namespace faba

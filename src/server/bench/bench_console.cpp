@@ -163,7 +163,7 @@ void BenchConsole::finish(const std::shared_ptr<BenchActivity>& activity, Json r
   Json last = Json::object();
   activity->describe(last);
   const Json& a = last["activity"];
-  for (const char* key : {"kind", "title", "out", "taken", "kept", "dropped", "corrupt"})
+  for (const char* key : {"kind", "title", "out", "experiment", "taken", "kept", "dropped", "corrupt"})
     if (a.contains(key)) result[key] = a[key];
   result["duration_s"] = a["started_s_ago"];
   {

@@ -3,6 +3,7 @@
 
 import * as analyse from './analyse';
 import * as app from './app';
+import * as assistant from './assistant';
 import * as bench from './bench';
 import * as coils from './coils';
 import * as experiments from './experiments';
@@ -22,6 +23,7 @@ import * as workbench from './workbench';
 const en = {
   ...analyse.en,
   ...app.en,
+  ...assistant.en,
   ...bench.en,
   ...coils.en,
   ...experiments.en,
@@ -41,6 +43,7 @@ const en = {
 const pt = {
   ...analyse.pt,
   ...app.pt,
+  ...assistant.pt,
   ...bench.pt,
   ...coils.pt,
   ...experiments.pt,

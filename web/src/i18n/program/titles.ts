@@ -39,6 +39,7 @@ export const titles: Record<string, string> = {
   'Thermal time': 'Tempo térmico', 'Sense tolerance': 'Tolerância da medida', 'Sense settling': 'Acomodação da medida', 'Sense samples': 'Amostras da medida', Gather: 'Reunião', Before: 'Antes',
   Repeat: 'Repetições', Every: 'Intervalo', Bench: 'Bancada simulada', Saturation: 'Saturação', 'Rise time': 'Tempo de subida', 'Fall time': 'Tempo de descida', 'Least volts': 'Tensão mínima',
   'Most volts': 'Tensão máxima', 'Enable time': 'Tempo de habilitação', 'Enable line': 'Linha de habilitação', Fault: 'Falha', 'Fault after': 'Falha após', 'Freeze after': 'Travamento após',
+  'Corrupt one of': 'Um corrompido a cada',
   Neutral: 'Neutro', Table: 'Tabela', 'Max RMS': 'RMS máximo', Sense: 'Medida', 'Sense gain': 'Ganho da medida', 'Sense neutral': 'Neutro da medida', Device: 'Dispositivo', Interface: 'Interface',
   Width: 'Largura', Height: 'Altura', Exposure: 'Exposição', 'White balance': 'Balanço de branco', 'Frames/s': 'Quadros por segundo', Fast: 'Rápido', Port: 'Porta', Baud: 'Baud', Outputs: 'Saídas',
   Event: 'Evento', Frame: 'Quadro', 'Nominal image scale': 'Escala nominal da imagem', 'Source of the image scale': 'Origem da escala da imagem',

@@ -9,6 +9,10 @@ export const lab: Record<string, string> = {
   'unsupported media type: send application/json': 'tipo de conteúdo não suportado: envie application/json',
   // server/api
   'invalid name; it must consist of letters, digits, spaces, dots, underscores and dashes, such as 10x': 'nome inválido; deve consistir de letras, dígitos, espaços, pontos, sublinhados e hífens, como 10x',
+  'invalid name; it must consist of at most 60 letters, digits, spaces, dots, underscores and dashes, such as bench-coils': 'nome inválido; deve consistir de no máximo 60 letras sem acento, dígitos, espaços, pontos, sublinhados e hífens, como bench-coils',
+  'not found in the folder of the lab: the scenes of the gallery are those of the program; copy the table of the coils into a scene of yours': 'não encontrada na pasta do laboratório: as cenas da galeria são as do programa; copie a tabela das bobinas para uma cena sua',
+  'exists; choose another name': 'já existe; escolha outro nome',
+  'differs from its original in more than [[rig.coil]]; open the scene again': 'difere do original em mais que [[rig.coil]]; abra a cena novamente',
   'is not a folder': 'não é uma pasta',
   'the job "{}" uses this experiment; wait until it ends or cancel it': 'a tarefa "{}" usa este experimento; espere até que termine ou cancele-a',
   'is not in the folder videos/ of the experiment and is not deleted; remove the entry only': 'não está na pasta videos/ do experimento e não é apagado; remova só a entrada',

@@ -38,6 +38,7 @@ export const bench: Record<string, string> = {
   'Simulated fault, to test the guard': 'Falha simulada, para testar a proteção',
   'Time from the first command to the fault': 'Tempo do primeiro comando até a falha',
   'Time at which the camera hangs; default: never': 'Instante em que a câmera trava; padrão: nunca',
+  'One of this number of frames arrives damaged; 0: none': 'Um a cada este número de quadros chega danificado; 0: nenhum',
   'Wiring and calibration of each coil': 'Ligações e calibração de cada bobina',
   'Wiring and calibration of one coil': 'Ligações e calibração de uma bobina',
   'Output of the driver; coils with the same output are wired together': 'Saída do acionamento; bobinas com a mesma saída são ligadas juntas',
