@@ -44,6 +44,26 @@ std::uint64_t query_count(const WebRequest& r, const char* key, std::uint64_t fa
   return n;
 }
 
+double number_of(const Json& asked, const char* key, double least, double most,
+                 std::optional<double> fallback) {
+  const bool given = asked.contains(key) && !asked[key].is_null();
+  if (!given && fallback) return *fallback;
+  if (!given || !asked[key].is_number()) throw Error(Errc::usage, key, "missing; it must be a number");
+  const double value = asked[key];
+  if (!(value >= least && value <= most))
+    throw Error(Errc::usage, key,
+                fmt::format("{:g} is out of range; it must be between {:g} and {:g}", value, least, most));
+  return value;
+}
+
+std::uint64_t count_of(const Json& asked, const char* key, std::uint64_t least, std::uint64_t most,
+                       std::optional<std::uint64_t> fallback) {
+  const double value = number_of(asked, key, double(least), double(most),
+                                 fallback ? std::optional(double(*fallback)) : std::nullopt);
+  if (value != std::floor(value)) throw Error(Errc::usage, key, fmt::format("{:g} is not an integer", value));
+  return std::uint64_t(value);
+}
+
 std::string text_of(const Json& asked, const char* key) {
   if (!asked.contains(key) || !asked[key].is_string() || asked[key].get<std::string>().empty())
     throw Error(Errc::usage, key, "missing; it must be a non-empty string");

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "core/toml.h"
@@ -16,6 +17,13 @@ std::string query_text(const WebRequest& r, const char* key);
 /// with the key.
 double query_number(const WebRequest& r, const char* key, double fallback);
 std::uint64_t query_count(const WebRequest& r, const char* key, std::uint64_t fallback);
+
+/// A number, or an integer, within limits; without a `fallback` it must be given. Throw Error(usage) with the
+/// key.
+double number_of(const Json& asked, const char* key, double least, double most,
+                 std::optional<double> fallback = {});
+std::uint64_t count_of(const Json& asked, const char* key, std::uint64_t least, std::uint64_t most,
+                       std::optional<std::uint64_t> fallback = {});
 
 /// A text that is not empty. Throws Error(usage) with the key.
 std::string text_of(const Json& asked, const char* key);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <ctime>
 
 #include "core/error.h"
@@ -35,21 +34,6 @@ Json measure_objective(const LabServices& lab, const Json& asked) {
   return measure_ruler(lab, taken, asked.value("tick_um", 0.0), "calibrations/" + objective, ".png");
 }
 
-double number_of(const Json& asked, const char* key, double fallback, double least, double most) {
-  const double value = asked.value(key, fallback);
-  if (!(value >= least && value <= most))
-    throw Error(Errc::usage, key,
-                fmt::format("{:g} is out of range; it must be between {:g} and {:g}", value, least, most));
-  return value;
-}
-
-std::uint64_t count_of(const Json& asked, const char* key, std::uint64_t fallback, std::uint64_t least) {
-  constexpr double kMost = 1e9;
-  const double value = number_of(asked, key, double(fallback), double(least), kMost);
-  if (value != std::floor(value)) throw Error(Errc::usage, key, fmt::format("{:g} is not an integer", value));
-  return std::uint64_t(value);
-}
-
 std::string time_stamp() {
   const std::time_t now = std::time(nullptr);
   std::tm local{};
@@ -77,11 +61,12 @@ BenchDestination destination(const LabServices& lab, const Json& asked, const st
 
 void capture(const LabServices& lab, const Json& asked) {
   constexpr double kDay = 86400;  // s
+  constexpr std::uint64_t kMostFrames = 1000000000;
   CaptureJob job;
-  job.frames = count_of(asked, "frames", 0, 0);
-  job.one_of = count_of(asked, "one_of", 1, 1);
-  job.time = number_of(asked, "time_s", 0, 0, 7 * kDay);
-  job.every = number_of(asked, "every_s", 0, 0, kDay);
+  job.frames = count_of(asked, "frames", 0, kMostFrames, 0);
+  job.one_of = count_of(asked, "one_of", 1, kMostFrames, 1);
+  job.time = number_of(asked, "time_s", 0, 7 * kDay, 0);
+  job.every = number_of(asked, "every_s", 0, kDay, 0);
   job.buffered = asked.value("buffered", false);
   job.only_corrupt = asked.value("only_corrupt", false);
   job.format = asked.value("format", "avi");
@@ -113,7 +98,7 @@ void run(const LabServices& lab, const Json& asked) {
   BenchDestination to = destination(lab, asked, name);
   to.out = lab.workspace.inside("runs/" + name);
   fs::create_directories(to.out.parent_path());
-  const double duration = number_of(asked, "duration_s", 20, 0.1, kLongest);
+  const double duration = number_of(asked, "duration_s", 0.1, kLongest, 20);
   lab.bench.run(duration, to, page_of(asked), text_of(asked, "permit"));
 }
 
@@ -127,7 +112,7 @@ void step_responses(const LabServices& lab, const Json& asked) {
     if (!asked.contains(asked_key) || asked[asked_key].is_null()) return;
     changes[key] = fmt::format("{} {}", asked[asked_key].get<double>(), unit);
   };
-  if (asked.contains("repeat")) changes["repeat"] = count_of(asked, "repeat", 1, 1);
+  if (asked.contains("repeat")) changes["repeat"] = count_of(asked, "repeat", 1, 1000);
   add("every_s", "every", "s");
   add("direction_deg", "direction", "deg");
   add("field_ut", "field", "uT");
@@ -170,7 +155,7 @@ void set_control(const LabServices& lab, const Json& asked) {
 void set_sample(const LabServices& lab, const Json& asked) {
   constexpr double kLongest = 1e6;  // s
   const bool known = asked.contains("exposure_s") && !asked["exposure_s"].is_null();
-  lab.bench.sample(known ? std::optional(number_of(asked, "exposure_s", 0, 0, kLongest)) : std::nullopt);
+  lab.bench.sample(known ? std::optional(number_of(asked, "exposure_s", 0, kLongest)) : std::nullopt);
 }
 
 }  // namespace

@@ -21,21 +21,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostCoils = 24, kMostCoilFiles = 500, kLongestCoilName = 60;
-constexpr int kMostGrid = 64;
+constexpr std::uint64_t kMostGrid = 64;
 constexpr double kLeastView = 1e-4, kMostView = 10;       // m
 constexpr double kLeastSample = 1e-6, kMostSample = 0.1;  // m
 constexpr const char* kCoilFolder = "rigs";
-
-double number_of(const Json& asked, const char* key, double least, double most, const char* unit) {
-  if (!asked.contains(key) || !asked[key].is_number())
-    throw Error(Errc::usage, key, "missing; it must be a number");
-  const double value = asked[key];
-  if (!(value >= least && value <= most))
-    throw Error(Errc::usage, key,
-                fmt::format("{:g} {} is out of range; it must be between {:g} and {:g} {}", value, unit,
-                            least, most, unit));
-  return value;
-}
 
 // `n` coordinates in m.
 std::vector<double> position_of(const Json& asked, const char* key, std::size_t n) {
@@ -49,12 +38,6 @@ std::vector<double> position_of(const Json& asked, const char* key, std::size_t 
                 fmt::format("must be a list of {} coordinates in m, each between {:g} and {:g} m", n,
                             -kMostView, kMostView));
   return values;
-}
-
-int count_of(const Json& asked, const char* key) {
-  if (!asked.contains(key) || !asked[key].is_number_integer() || asked[key] < 1 || asked[key] > kMostGrid)
-    throw Error(Errc::usage, key, fmt::format("must be an integer between 1 and {}", kMostGrid));
-  return asked[key];
 }
 
 // The coil system that a page sends, with the limits of the editor. Measured maps are files; they have no
@@ -81,10 +64,10 @@ Document system_of(const Json& asked) {
 
 CoilDesignOptions options_of(const Json& asked, const Parts& parts) {
   CoilDesignOptions o;
-  o.width = number_of(asked, "width_m", kLeastView, kMostView, "m");
-  o.height = number_of(asked, "height_m", kLeastView, kMostView, "m");
-  o.columns = count_of(asked, "columns");
-  o.rows = count_of(asked, "rows");
+  o.width = number_of(asked, "width_m", kLeastView, kMostView);
+  o.height = number_of(asked, "height_m", kLeastView, kMostView);
+  o.columns = int(count_of(asked, "columns", 1, kMostGrid));
+  o.rows = int(count_of(asked, "rows", 1, kMostGrid));
   if (asked.value("side", false)) o.planes.push_back(CoilDesignOptions::Plane::side);
   o.fast = asked.value("fast", false);
   const auto probe = position_of(asked, "probe_m", 3), target = position_of(asked, "target_m", 2);
@@ -95,7 +78,7 @@ CoilDesignOptions options_of(const Json& asked, const Parts& parts) {
     throw Error(Errc::usage, "polarity",
                 fmt::format("unknown polarity \"{}\"; it must be north or south", polarity.substr(0, 80)));
   o.polarity = polarity == "south" ? -1 : 1;
-  o.sample = number_of(asked, "sample_m", kLeastSample, kMostSample, "m");
+  o.sample = number_of(asked, "sample_m", kLeastSample, kMostSample);
   Document d;
   d.root = {{"model", asked.value("model", Json("dipole"))}};
   o.cell = field_response(parts.model.resolve(Node(d).child("model")));

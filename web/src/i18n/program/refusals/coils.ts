@@ -42,11 +42,9 @@ export const coils: Record<string, string> = {
   'missing; it must be a number': 'ausente; deve ser um número',
   'missing; it must be a table with the coils': 'ausente; deve ser uma tabela com as bobinas',
   'must be a list of {} coordinates in m, each between {} and {} m': 'deve ser uma lista de {} coordenadas em m, cada uma entre {} e {} m',
-  'must be an integer between 1 and {}': 'deve ser um número inteiro entre 1 e {}',
   'the coil system has no coils; add at least one': 'o sistema de bobinas não tem bobinas; adicione pelo menos uma',
   'the coil system has {} coils; it must have at most {}': 'o sistema de bobinas tem {} bobinas; deve ter no máximo {}',
   'unknown polarity "{}"; it must be north or south': 'polaridade desconhecida "{}"; deve ser north ou south',
-  '{} {} is out of range; it must be between {} and {} {}': '{} {} está fora do intervalo permitido; deve estar entre {} e {} {}',
   // cli/verbs/field
   'fit, evaluations of the field': 'ajuste, avaliações do campo',
   '"{}" is out of range; it must be positive and at most the longer side of the rectangle ({} mm); omit the option for a 64th of this side': '"{}" está fora do intervalo permitido; deve ser positivo e no máximo o lado maior do retângulo ({} mm); omita a opção para um 64 avos deste lado',
