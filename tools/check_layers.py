@@ -78,17 +78,18 @@ WITHIN = {
         "tracks": "data stats quality",
         "motion": "data experiment stats tracks quality",
         "uturn": "data stats tracks quality",
+        "optics": "quality drop tracks motion",
         "steering": "data stats sweep",
         "coils": "plot quality",
         "identify": "data stats sweep tracks motion quality",
         "calibrate": "stats sweep quality identify",
-        "pages": "data experiment stats quality sweep plot scale drop flow tracks motion uturn steering coils identify calibrate",
+        "pages": "data experiment stats quality sweep plot scale drop flow tracks motion uturn steering coils identify calibrate optics",
     },
 }
 # Folders whose results are structs; study/pages, cli and server convert them to JSON. Files that use JSON for another
 # purpose: activity_study and moment_study read a study file and have its JSON Schema, field_fit writes the table of a part of a scenario,
 # field_library writes the keys of its file.
-NO_JSON = ["study/" + folder for folder in "scale drop flow tracks motion uturn coils".split()]
+NO_JSON = ["study/" + folder for folder in "scale drop flow tracks motion uturn coils optics".split()]
 MAY_JSON = ["study/motion/activity_study", "study/uturn/moment_study", "study/coils/field_fit", "study/coils/field_library"]
 # Folders of the engine include only each other, even if the tables above permit more (CMakeLists.txt: faba_engine).
 ENGINE = (

@@ -17,6 +17,7 @@ namespace faba::cli {
   X(compare)             \
   X(distance)            \
   X(scale)               \
+  X(optics)              \
   X(field)               \
   X(rig)                 \
   X(compare_controllers) \

@@ -6,7 +6,7 @@ import { address, faba, page } from './lab_page.mjs';
 const kSettle = 1000; // ms for a page to load its content; pages that poll are never idle
 export const kViews = [
   'lab', 'gallery', 'experiments', 'experiments/x', 'experiments/x?measure=identify', 'runs', 'runs/r1', 'analyse', 'analyse/track', 'analyse/identify',
-  'analyse/compare-controllers', 'analyse/sweep', 'analyse/field-map', 'coils', 'coils/rigs/thesis-four-coils.toml', 'jobs', ...['', '/capture', '/response', '/run', '/jog', '/scale', '/assistant'].map((part) => `bench${part}`), 'own', 'video', 'video?file=runs%2Fr1', 'video?file=runs%2Fr1&experiment=x', 'tracks',
+  'analyse/compare-controllers', 'analyse/sweep', 'analyse/field-map', 'optics', 'optics?preset=100x&frame_rate=60+Hz', 'coils', 'coils/rigs/thesis-four-coils.toml', 'jobs', ...['', '/capture', '/response', '/run', '/jog', '/scale', '/assistant'].map((part) => `bench${part}`), 'own', 'video', 'video?file=runs%2Fr1', 'video?file=runs%2Fr1&experiment=x', 'tracks',
   'tracks?file=runs%2Fr1', 'result?page=runs%2Fr1%2Freport.html',
 ];
 

@@ -26,6 +26,7 @@ import reproduce  # noqa: E402
 from reproduce_rows import check, flow, index, page, structure  # noqa: E402
 from reproduce_rows.faba import Lab  # noqa: E402
 
+TEXT_ONLY = ("4.1.1",)  # results that the thesis states in its text; the index lists figures, tables and equations
 QUICK = ("Fig 3.10", "Fig 3.12", "Table 4.1", "Fig 3.20", "Fig B.3", "B.6, B.7", "B.8")
 
 
@@ -39,7 +40,9 @@ class List(unittest.TestCase):
     @unittest.skipUnless(INDEX.exists(), f"file not found: {INDEX}")
     def test_lists_all_items_in_the_order_of_the_thesis(self):
         items = [line.split("|")[1].strip() for line in INDEX.read_text().splitlines() if line.startswith("| ")][1:]
-        self.assertEqual([line[:18].strip() for line in call("--list").stdout.splitlines()], items)
+        listed = [line[:18].strip() for line in call("--list").stdout.splitlines()]
+        self.assertEqual([i for i in listed if i not in TEXT_ONLY], items)
+        self.assertLessEqual(set(TEXT_ONLY), set(listed))
 
     def test_an_item_is_found_by_its_number(self):
         self.assertEqual([r.item for r in index.wanted(["4.13"])], ["Eq 4.1, Fig 4.13"])

@@ -4,7 +4,7 @@
 
 /** The pages of the navigation bar. */
 export const kTabs = ['lab', 'gallery', 'experiments', 'runs', 'analyse', 'jobs', 'bench'] as const;
-export const kPages = [...kTabs, 'coils', 'own', 'result', 'tracks', 'video'] as const;
+export const kPages = [...kTabs, 'coils', 'optics', 'own', 'result', 'tracks', 'video'] as const;
 export type PageName = (typeof kPages)[number];
 
 export interface Place {

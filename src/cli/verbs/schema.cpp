@@ -11,6 +11,7 @@
 #include "study/experiment/experiment.h"
 #include "study/identify/identify.h"
 #include "study/motion/activity_study.h"
+#include "study/optics/optics_setup.h"
 #include "study/steering/controller_study.h"
 #include "study/uturn/moment_study.h"
 
@@ -42,6 +43,7 @@ int schema(const std::string& file, const Common& c) {
                  : file == "compare-controllers" ? controller_study_schema()
                  : file == "activity"            ? activity_study_schema()
                  : file == "moment"              ? moment_study_schema()
+                 : file == "optics"              ? OpticsSetup::schema().json_schema()
                  : file == "experiment"          ? experiment_schema()
                  : file == "engine"              ? engine_file_schema()
                                                  : scenario_json_schema(parts);
@@ -61,7 +63,7 @@ void add_schema(CLI::App& app, CommandLine& line) {
                 "file; or series, "
                 "which lists the columns of series.csv")
       ->check(one_of({"scenario", "rig", "identify", "calibrate", "compare-controllers", "activity", "moment",
-                      "experiment", "engine", "series"}));
+                      "optics", "experiment", "engine", "series"}));
   v->callback([of, &line] { line.code = schema(*of, line.common); });
 }
 

@@ -21,9 +21,14 @@ Api::Api(const Workspace& workspace, JobList& jobs, fs::path pictures, fs::path 
          std::function<void(const Json&)> news)
     : pages_(std::move(pages)),
       experiments_(workspace,
-                   [news](const std::string& name) { news({{"say", "experiment"}, {"name", name}}); }),
-      bench_([news = std::move(news)](const Json& state) { news({{"say", "bench"}, {"state", state}}); },
-             [this](const BenchRecording& r) { keep_recording(experiments_, r); }),
+                   [news](const std::string& name) {
+                     news({{"say", "experiment"}, {"name", name}});
+                   }),
+      bench_(
+          [news = std::move(news)](const Json& state) {
+            news({{"say", "bench"}, {"state", state}});
+          },
+          [this](const BenchRecording& r) { keep_recording(experiments_, r); }),
       trash_(workspace),
       runs_(workspace, jobs, trash_),
       lab_{workspace, jobs,  std::move(pictures), builtin_parts(), bench_, experiments_, imports_,
@@ -45,6 +50,7 @@ Api::Api(const Workspace& workspace, JobList& jobs, fs::path pictures, fs::path 
   add_video_routes(routes_, lab_);
   add_bench_routes(routes_, lab_);
   add_coil_routes(routes_, lab_);
+  add_optics_routes(routes_);
 }
 
 WebResponse Api::answer(const WebRequest& r) {

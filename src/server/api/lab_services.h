@@ -38,6 +38,7 @@ void add_folder_routes(Routes& routes, const LabServices& lab);
 void add_gallery_routes(Routes& routes, const LabServices& lab);
 void add_job_routes(Routes& routes, const LabServices& lab);
 void add_input_routes(Routes& routes, const LabServices& lab);
+void add_optics_routes(Routes& routes);
 void add_result_routes(Routes& routes, const LabServices& lab);
 void add_run_routes(Routes& routes, const LabServices& lab);
 void add_scenario_routes(Routes& routes, const LabServices& lab);

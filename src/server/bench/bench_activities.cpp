@@ -46,7 +46,7 @@ double field_after_reversal(const StepResponseParams& p, int polarity) {
 
 void BenchConsole::capture(CaptureJob job, BenchDestination to) {
   const auto exposed = exposure();
-  start(begun("capture", to.title, false),
+  start(new_activity("capture", to.title, false),
         [this, job, to, exposed](ViewedBench& b, BenchActivity& a) mutable {
           b.stop_view();
           job.out = to.out;
@@ -73,20 +73,21 @@ void BenchConsole::run(double duration_s, BenchDestination to, std::uint64_t pag
   Document d = with_exposure(bench(true)->scene(), exposed);
   d.set("duration", fmt::format("{} s", duration_s), "bench");
   Scenario s = read_scenario(d, builtin_parts());  // reports a wrong duration before anything starts
-  start(begun("run", to.title, true), [this, s, to, exposed](ViewedBench& b, BenchActivity& a) mutable {
-    b.stop_view();
-    const auto open = std::make_shared<OpenBench>(s, b.seed(), OpenBench::Open::all, b.devices(&a));
-    BenchSession session = BenchSession::begin(s, open, b.seed(), options_of(to, a));
-    a.out(shown(to, session.dir()), to.experiment);
-    const bool complete = run_with_report(session);
-    recorded_({.path = session.dir(),
-               .experiment = to.experiment,
-               .drop = to.drop,
-               .exposure_s = exposed,
-               .polarity = s.polarity()});
-    const std::string note = complete ? "" : "stopped by the user";
-    return note;
-  });
+  start(new_activity("run", to.title, true),
+        [this, s, to, exposed](ViewedBench& b, BenchActivity& a) mutable {
+          b.stop_view();
+          const auto open = std::make_shared<OpenBench>(s, b.seed(), OpenBench::Open::all, b.devices(&a));
+          BenchSession session = BenchSession::begin(s, open, b.seed(), options_of(to, a));
+          a.out(shown(to, session.dir()), to.experiment);
+          const bool complete = run_with_report(session);
+          recorded_({.path = session.dir(),
+                     .experiment = to.experiment,
+                     .drop = to.drop,
+                     .exposure_s = exposed,
+                     .polarity = s.polarity()});
+          const std::string note = complete ? "" : "stopped by the user";
+          return note;
+        });
 }
 
 void BenchConsole::step_responses(const Json& changes, BenchDestination to, std::uint64_t page,
@@ -95,7 +96,7 @@ void BenchConsole::step_responses(const Json& changes, BenchDestination to, std:
   Document d = with_exposure(bench(true)->scene(), exposure());
   for (const auto& [key, value] : changes.items()) d.set("rig.step_response." + key, value, "bench");
   const Scenario s = read_scenario(d, builtin_parts());  // reports wrong values before anything starts
-  start(begun("step-response", to.title, true), [this, d, s, to](ViewedBench& b, BenchActivity& a) {
+  start(new_activity("step-response", to.title, true), [this, d, s, to](ViewedBench& b, BenchActivity& a) {
     b.stop_view();
     const StepResponseParams p = s.rig->step_response;
     StepResponseJob job;
@@ -173,8 +174,8 @@ JogSession BenchConsole::jog(std::uint64_t page, const std::string& permit) {
   const auto asked = std::make_shared<Jog>();
   const std::vector<double> most = permitted_currents(bench(true)->scenario());
   start(
-      begun("jog", "", true), [asked](ViewedBench& b, BenchActivity& a) { return work_of_jog(b, a, *asked); },
-      asked);
+      new_activity("jog", "", true),
+      [asked](ViewedBench& b, BenchActivity& a) { return work_of_jog(b, a, *asked); }, asked);
   return {asked->secret, most};
 }
 

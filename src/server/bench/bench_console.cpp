@@ -28,7 +28,7 @@ BenchConsole::~BenchConsole() {
 }
 
 void BenchConsole::watch(const std::stop_token& stop) {
-  double told = 0;
+  double last_news = 0;
   bool was_armed = false;
   while (!stop.stop_requested()) {
     std::this_thread::sleep_for(std::chrono::duration<double>(kWatchPeriod));
@@ -39,16 +39,16 @@ void BenchConsole::watch(const std::stop_token& stop) {
     }
     const double now = monotonic_now();
     const bool armed = a && a->armed();
-    if (armed != was_armed || (a && now - told > kNewsPeriod)) {
+    if (armed != was_armed || (a && now - last_news > kNewsPeriod)) {
       was_armed = armed;
-      told = now;
+      last_news = now;
       tell();
     }
     const auto b = bench(false);
     if (b && !a && now - b->last_used() > kIdleTimeout) {
       try {
         close();
-      } catch (const Error&) {  // NOLINT(bugprone-empty-catch): an activity has begun meanwhile
+      } catch (const Error&) {  // NOLINT(bugprone-empty-catch): an activity has started meanwhile
       }
     }
   }
@@ -119,8 +119,8 @@ std::optional<double> BenchConsole::exposure() {
   return monotonic_now() - *placed_;
 }
 
-std::shared_ptr<BenchActivity> BenchConsole::begun(const char* kind, const std::string& title,
-                                                   bool uses_coils) {
+std::shared_ptr<BenchActivity> BenchConsole::new_activity(const char* kind, const std::string& title,
+                                                          bool uses_coils) {
   const Scenario& s = bench(true)->scenario();
   return std::make_shared<BenchActivity>(kind, title, uses_coils, s.arena.make({s.si_scale()})->frame(),
                                          permitted_currents(s));

@@ -8,10 +8,10 @@
 #include <thread>
 
 #include "app/bench/capture.h"
+#include "app/bench/viewed_bench.h"
 #include "app/scenario/scenario.h"
 #include "server/bench/arming_permits.h"
 #include "server/bench/bench_activity.h"
-#include "server/bench/viewed_bench.h"
 
 namespace faba {
 
@@ -71,7 +71,7 @@ class BenchConsole {
   /// The sample has this air exposure time now, s; empty: not known.
   void sample(std::optional<double> exposure_s);
 
-  // Activities. Each returns when it has begun; its errors are in the state. Throw Error(usage) during
+  // Activities. Each returns when it has started; its errors are in the state. Throw Error(usage) during
   // another activity, and Error(input) without an open bench.
   void capture(CaptureJob job, BenchDestination to);
   void run(double duration_s, BenchDestination to, std::uint64_t page, const std::string& permit);
@@ -99,7 +99,7 @@ class BenchConsole {
 
   std::shared_ptr<ViewedBench> bench(bool required);
   std::shared_ptr<ViewedBench> take_bench();
-  std::shared_ptr<BenchActivity> begun(const char* kind, const std::string& title, bool uses_coils);
+  std::shared_ptr<BenchActivity> new_activity(const char* kind, const std::string& title, bool uses_coils);
   void start(const std::shared_ptr<BenchActivity>& activity, Work work, std::shared_ptr<Jog> jog = nullptr);
   void finish(const std::shared_ptr<BenchActivity>& activity, Json result);
   std::optional<double> exposure();

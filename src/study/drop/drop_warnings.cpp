@@ -5,13 +5,10 @@
 namespace faba {
 namespace {
 
-// Assumed. Along an arc of 30 degrees a circle departs from its chord by 3.4 % of its radius.
-constexpr double kShortArc = 30;  // degrees
-constexpr double kUncertainRadius = 0.03,
-                 kUselessRadius = 0.15;  // standard deviation of the radius, over the radius
-constexpr double kIncomplete = 0.8;      // fraction of the visible arc with an edge; below 0.65 it is refused
-constexpr double kBlurredEdge = 0.1;     // width of the edge over the radius
-constexpr double kOutOfRound = 0.03;     // half the difference of the axes over the radius
+// Assumed.
+constexpr double kIncomplete = 0.8;   // fraction of the visible arc with an edge; below 0.65 it is refused
+constexpr double kBlurredEdge = 0.1;  // width of the edge over the radius
+constexpr double kOutOfRound = 0.03;  // half the difference of the axes over the radius
 
 }  // namespace
 

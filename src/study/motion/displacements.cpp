@@ -16,12 +16,12 @@
 namespace faba {
 namespace {
 
-constexpr std::size_t kMostFrames = 64, kLeastFrames = 6;
-constexpr int kRadius = 32, kAcrossMotion = 6;       // px: displacements along and across
-constexpr double kSurroundRatio = 2.5;               // as in Detector
-constexpr double kThresholdSd = 1.5, kObjectSd = 4;  // of the noise of the band-passed picture
-constexpr int kPairBlocks = 5;                       // of the pairs
-constexpr double kShiftSizes = 1.25;                 // displacement in sizes of an object
+constexpr std::size_t kMostFrames = 64;
+constexpr int kRadius = kLongestShift, kAcrossMotion = 6;  // px: displacements along and across
+constexpr double kSurroundRatio = 2.5;                     // as in Detector
+constexpr double kThresholdSd = 1.5, kObjectSd = 4;        // of the noise of the band-passed picture
+constexpr int kPairBlocks = 5;                             // of the pairs
+constexpr double kShiftSizes = 1.25;                       // displacement in sizes of an object
 // Standard deviation of the displacements over their mean, at least. Thesis: 45 / 186 for IT-1. Without a
 // limit a few objects with equal speeds, which correlate most, are taken for all. Assumed.
 constexpr double kLeastShiftSpread = 0.15;
@@ -305,7 +305,7 @@ std::optional<CommonDisplacement> common_displacement(const ResponseFrames& fram
   frames.each(part, work, [&](std::size_t slot) {
     if (pictures.size() < kMostFrames) pictures.push_back(std::move(slots[slot]));
   });
-  if (pictures.size() < kLeastFrames) return {};
+  if (pictures.size() < kLeastShiftFrames) return {};
   Pool pool(frames.threads());
   const Correlator correlate(direction_deg);
   const std::vector<Profile> self = self_of(pictures, noise_picture(frames), correlate, pool);
@@ -316,7 +316,7 @@ std::optional<CommonDisplacement> common_displacement(const ResponseFrames& fram
     if (!(all.mass > 0)) return {};
     const ShiftFit fit = fit_of(all, size, 1);
     const bool longer = fit.shift < kShiftSizes * size && 2 * double(gap) * frame_s <= kLongestGap &&
-                        pictures.size() >= 2 * gap + kLeastFrames;
+                        pictures.size() >= 2 * gap + kLeastShiftFrames;
     if (!longer) return result_of(blocks, fit, all, size, frames.side(), gap);
   }
 }

@@ -1,11 +1,17 @@
 #pragma once
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
 #include "study/motion/response_frames.h"
 
 namespace faba {
+
+/// Frames that common_displacement() needs, and the longest displacement between two pictures that it
+/// detects, px of a picture of ResponseFrames.
+inline constexpr std::size_t kLeastShiftFrames = 6;
+inline constexpr int kLongestShift = 32;
 
 /// Displacement along one direction that a fraction of the objects has in common.
 struct CommonDisplacement {

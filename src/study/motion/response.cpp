@@ -13,12 +13,9 @@ namespace {
 
 constexpr double kReadBefore = 0.8, kReadAfter = 4;  // s about a known reversal that are read
 constexpr double kMostSearched = 20;                 // s: part in which an unknown reversal is searched
-constexpr double kHalfSearch = 0.5;  // s before and after a possible change that are compared in the search
-constexpr double kEarlier = 0.5;     // s before the detected change at which the search of the onset starts
-constexpr double kNormal90 = 1.645;  // quantile of the normal distribution for a 90 % interval
-// s: speed and fraction are measured for kMeasured from kSeparated after the rise; before, cells that leave
-// an edge together overlap. Assumed.
-constexpr double kSeparated = 0.3, kMeasured = 1;
+constexpr double kHalfSearch = 0.5;   // s before and after a possible change that are compared in the search
+constexpr double kEarlier = 0.5;      // s before the detected change at which the search of the onset starts
+constexpr double kNormal90 = 1.645;   // quantile of the normal distribution for a 90 % interval
 constexpr double kAnyDirection = 12;  // independent possibilities of a direction that is not given. Assumed
 
 /// The components of one measure.
@@ -166,8 +163,8 @@ std::optional<Response> measure_response(const ResponseJob& job) {
   if (!r.responds && job.direction_deg)
     r.other_direction_deg = changed_direction(shifts, job, *part.to_s, tests);
   VideoPart after = part;
-  after.from_s = r.change.t_s + r.change.rise_s + kSeparated;
-  after.to_s = after.from_s + kMeasured;
+  after.from_s = r.change.t_s + r.change.rise_s + kResponseWait;
+  after.to_s = after.from_s + kResponsePart;
   if (const auto common = common_displacement(frames, after, r.direction_deg, job.frame_s))
     take_speed(r, *common, frames, job.frame_s);
   return r;

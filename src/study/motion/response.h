@@ -9,6 +9,11 @@
 
 namespace faba {
 
+/// Part in which speed and fraction of the responding objects are measured: it starts kResponseWait after the
+/// rise, because cells that leave an edge together overlap before, and has the length kResponsePart. s,
+/// assumed.
+inline constexpr double kResponseWait = 0.3, kResponsePart = 1;
+
 /// Whether the optical flow of a video has a direction, from the displacement of the objects that respond.
 struct FlowVerdict {
   double shift_px = 0;                      ///< displacement between consecutive frames, px of the video
@@ -17,6 +22,9 @@ struct FlowVerdict {
   /// The flow of objects that move by more than twice their width between frames has no direction (theory
   /// A22).
   bool valid() const { return shift_px <= 2 * object_px; }
+  /// Up to one width the flow of an object is its displacement; beyond, it is smaller, and for some objects
+  /// opposite (theory A22, range).
+  bool follows() const { return shift_px <= object_px; }
 };
 
 /// A fraction or a speed with its 90 % interval.

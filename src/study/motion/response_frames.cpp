@@ -19,7 +19,6 @@
 namespace faba {
 namespace {
 
-constexpr int kLongSide = 640;       // px; larger pictures are averaged over squares
 constexpr int kSampled = 40;         // frames of the median
 constexpr double kDefaultSize = 4;   // px, as DetectorOptions: when no spot is significant
 constexpr double kSmoothing = 8;     // px: scale of the illumination, for the polarity
@@ -57,19 +56,20 @@ ResponseFrames::ResponseFrames(std::filesystem::path video, const VideoPart& par
                                std::function<void()> check)
     : video_(std::move(video)), threads_(OrderedWork::threads(threads)), check_(std::move(check)) {
   BackgroundSampler sampler(kSampled);
-  const FrameInspector sample{[&](double) {
-                                ++frames_;
-                                const bool needed = sampler.needs_next();
-                                if (!needed) sampler.skip();
-                                return needed;
-                              },
-                              [&](const GrayF& frame) -> std::function<void()> {
-                                side_ = std::max(
-                                    1, (std::max(frame.width, frame.height) + kLongSide - 1) / kLongSide);
-                                GrayF finite = frame;
-                                sampler.take(reduced(finite, side_));
-                                return {};
-                              }};
+  const FrameInspector sample{
+      [&](double) {
+        ++frames_;
+        const bool needed = sampler.needs_next();
+        if (!needed) sampler.skip();
+        return needed;
+      },
+      [&](const GrayF& frame) -> std::function<void()> {
+        side_ =
+            std::max(1, (std::max(frame.width, frame.height) + kLongResponseSide - 1) / kLongResponseSide);
+        GrayF finite = frame;
+        sampler.take(reduced(finite, side_));
+        return {};
+      }};
   inspect_video(video_, part, sample, threads_, [&](auto, auto) { check_(); });
   if (frames_ == 0) throw Error(Errc::input, video_.string(), "no frame in this part of the video");
   Pool pool(threads_);

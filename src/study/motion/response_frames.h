@@ -7,6 +7,9 @@
 
 namespace faba {
 
+/// Side above which pictures are averaged over squares, px.
+inline constexpr int kLongResponseSide = 640;
+
 /// A part of a video as pictures of its objects: differences from an empty background, positive for objects,
 /// grey levels of the video averaged over squares of side() px. Dark objects absorb a fraction of the light,
 /// so that their differences are relative to the light of the background, in units of its median: a cell has

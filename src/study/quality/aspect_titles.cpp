@@ -12,6 +12,7 @@ const std::map<std::string_view, const char*>& titles() {
       {"aperture", "Aperture problem"},
       {"arc", "Visible arc of the edge"},
       {"axis", "Axes of the table"},
+      {"blur", "Motion blur"},
       {"coding", "Compression of the video"},
       {"contrast", "Contrast of the motion"},
       {"coverage", "Coverage of the intervals"},
@@ -51,6 +52,7 @@ const std::map<std::string_view, const char*>& titles() {
       {"response", "Cells that do not turn"},
       {"responsive_fraction", "Responsive fraction"},
       {"reversal", "Field reversal"},
+      {"sample", "Number of cells"},
       {"saturation", "Range of the probe"},
       {"scale", "Scale of the picture"},
       {"search", "Search for the parameters"},
@@ -65,6 +67,7 @@ const std::map<std::string_view, const char*>& titles() {
       {"turning", "Turning of the cells"},
       {"turns", "Number of turns"},
       {"units", "Units of the table"},
+      {"view", "Field of view"},
   };
   return all;
 }

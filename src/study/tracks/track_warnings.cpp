@@ -15,10 +15,7 @@ constexpr double kNoNoise = 0.25;
 constexpr double kFaint = 4;  // times the threshold: a median below it is a tail of noise or texture
 // The same for the errors of a codec, whose sd is measured (assumed; beads in a coded video have 1.3).
 constexpr double kWeak = 1.25;
-constexpr double kCovered =
-    0.05;  // of the picture: spots this dense overlap the rings of their local offsets
 constexpr double kDoubtfulLinks = 0.9, kPoorLinks = 0.75;  // fraction of the links that are reproduced
-constexpr double kFarStep = 0.3;   // of the mean distance between objects: tracks then often join wrong ones
 constexpr double kFastTurn = 1.5;  // frames: a shorter persistence time is typical of steps to wrong objects
 constexpr double kShort = 0.5;     // fraction of detections outside of tracks
 
@@ -65,14 +62,14 @@ void warn_noise(const TrackDetection& d, std::vector<Warning>& out) {
 
 void warn_texture(const TrackDetection& d, std::vector<Warning>& out) {
   const double share = covered(d);
-  if (share < kCovered) return;
+  if (share < kCoveredPicture) return;
   out.push_back({"texture",
                  "the picture is full of detections: they are parts of a texture, or objects so dense that "
                  "their pictures overlap",
                  fmt::format("{:.3g} detections per frame cover {:.0f} % of the picture", d.spots_per_frame,
                              100 * share),
                  "look at --preview; give the --size of the objects, or dilute the sample",
-                 share > 3 * kCovered ? Quality::poor : Quality::doubtful});
+                 share > 3 * kCoveredPicture ? Quality::poor : Quality::doubtful});
 }
 
 void warn_size(const TrackDetection& d, std::vector<Warning>& out) {

@@ -5,6 +5,12 @@
 
 namespace faba {
 
+/// Displacement between frames, over the mean distance of the objects, above which tracks often join wrong
+/// ones.
+inline constexpr double kFarStep = 0.3;
+/// Fraction of the picture that spots cover, above which they overlap the rings of their local offsets.
+inline constexpr double kCoveredPicture = 0.05;
+
 struct TrackDetection;
 struct TrackMeasurement;
 

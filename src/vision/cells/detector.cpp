@@ -232,8 +232,8 @@ double detection_threshold(double size_px, double pixels, double false_alarms) {
 
 Detector::Detector(Background background, DetectorOptions options)
     : background_(std::move(background)), options_(options) {
-  if (!(options_.size_px >= 1 && options_.size_px <= 60) || options_.polarity == Polarity::automatic ||
-      !(options_.false_alarms > 0) || background_.level.empty())
+  if (!(options_.size_px >= 1 && options_.size_px <= kLargestDetected) ||
+      options_.polarity == Polarity::automatic || !(options_.false_alarms > 0) || background_.level.empty())
     throw Error(Errc::internal, "detector",
                 "invalid options; a background, a size of 1 to 60 px, false_alarms > 0 and a polarity other "
                 "than automatic are required");
@@ -292,9 +292,8 @@ std::vector<Spot> Detector::find(const GrayF& frame) const {
 }
 
 SpotSize spot_size(const GrayF& frame, const Background& background, Polarity polarity, Pool& pool) {
-  constexpr int kSizes = 16;  // 2 to 30.8 px
   std::vector<double> sizes;
-  for (double size = 2; int(sizes.size()) < kSizes; size *= 1.2) {
+  for (double size = kSmallestSpot; size < kLargestSpot; size *= 1.2) {
     if (8 * size / kFwhmPerSd > std::min(frame.width, frame.height)) break;
     sizes.push_back(size);
   }

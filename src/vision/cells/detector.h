@@ -9,6 +9,10 @@
 
 namespace faba {
 
+/// Smallest and largest size of spots that spot_size() estimates, and the largest that a detector accepts,
+/// px.
+inline constexpr double kSmallestSpot = 2, kLargestSpot = 31, kLargestDetected = 60;
+
 /// Region of the picture that is excluded from detection.
 struct DropMask {
   Vec2 centre_image;  ///< px
@@ -22,7 +26,7 @@ bool excludes(const std::optional<DropMask>& drop, double x_px, double y_px);
 
 /// Parameters of Detector.
 struct DetectorOptions {
-  double size_px = 4;                  ///< full width at half maximum of the spots, 1 to 60 px
+  double size_px = 4;                  ///< full width at half maximum of the spots, 1 to kLargestDetected
   Polarity polarity = Polarity::dark;  ///< not automatic
   /// Expected number of false detections per frame from noise; the threshold follows from the expected number
   /// of maxima of a Gaussian random field (Adler). Noise with heavier tails gives more.
@@ -80,7 +84,7 @@ struct SpotSize {
   std::optional<TwoSizes> two;
 };
 
-/// Estimates the size of spots: the one of 2, 2.4, 2.9 ... 30 px whose matched filter has the largest
+/// Estimates the size of spots: the one of 2, 2.4, 2.9 ... 30.8 px whose matched filter has the largest
 /// signal-to-noise ratio (relative to white noise) at the strongest maxima. 0 when no maximum is significant
 /// at any size.
 SpotSize spot_size(const GrayF& frame, const Background& background, Polarity polarity, Pool& pool);

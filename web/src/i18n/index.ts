@@ -11,6 +11,7 @@ import * as form from './form';
 import * as gallery from './gallery';
 import * as jobs from './jobs';
 import * as lab from './lab';
+import * as optics from './optics';
 import * as own from './own';
 import * as quality from './quality';
 import * as result from './result';
@@ -30,6 +31,7 @@ const en = {
   ...gallery.en,
   ...jobs.en,
   ...lab.en,
+  ...optics.en,
   ...own.en,
   ...quality.en,
   ...result.en,
@@ -49,6 +51,7 @@ const pt = {
   ...gallery.pt,
   ...jobs.pt,
   ...lab.pt,
+  ...optics.pt,
   ...own.pt,
   ...quality.pt,
   ...result.pt,

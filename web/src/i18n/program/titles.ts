@@ -43,4 +43,6 @@ export const titles: Record<string, string> = {
   Neutral: 'Neutro', Table: 'Tabela', 'Max RMS': 'RMS máximo', Sense: 'Medida', 'Sense gain': 'Ganho da medida', 'Sense neutral': 'Neutro da medida', Device: 'Dispositivo', Interface: 'Interface',
   Width: 'Largura', Height: 'Altura', Exposure: 'Exposição', 'White balance': 'Balanço de branco', 'Frames/s': 'Quadros por segundo', Fast: 'Rápido', Port: 'Porta', Baud: 'Baud', Outputs: 'Saídas',
   Event: 'Evento', Frame: 'Quadro', 'Nominal image scale': 'Escala nominal da imagem', 'Source of the image scale': 'Origem da escala da imagem',
+  // The planner of the optics.
+  Magnification: 'Ampliação', 'Numerical aperture': 'Abertura numérica', 'Image scale, um per px': 'Escala da imagem, µm por px', 'Pixel size': 'Tamanho do pixel', 'Tube factor': 'Fator da lente de tubo', 'Frame rate': 'Taxa de quadros', 'Cells per square millimetre': 'Células por milímetro quadrado', 'Drop radius': 'Raio da gota',
 };

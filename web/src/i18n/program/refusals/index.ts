@@ -6,9 +6,10 @@ import { coils } from './coils';
 import { files } from './files';
 import { lab } from './lab';
 import { measurements } from './measurements';
+import { optics } from './optics';
 import { scenario } from './scenario';
 import { studies } from './studies';
 import { system } from './system';
 import { tracks } from './tracks';
 
-export const refusals: Record<string, string> = { ...system, ...bench, ...coils, ...files, ...lab, ...measurements, ...scenario, ...studies, ...tracks };
+export const refusals: Record<string, string> = { ...system, ...bench, ...coils, ...files, ...lab, ...measurements, ...optics, ...scenario, ...studies, ...tracks };

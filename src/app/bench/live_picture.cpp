@@ -1,4 +1,4 @@
-#include "server/bench/live_picture.h"
+#include "app/bench/live_picture.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "server/bench/viewed_bench.h"
+#include "app/bench/viewed_bench.h"
 
 #include "app/scenario/read_scenario.h"
 #include "rig/bench/camera_feed.h"

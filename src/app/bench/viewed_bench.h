@@ -4,10 +4,10 @@
 #include <string>
 #include <thread>
 
+#include "app/bench/live_picture.h"
 #include "app/bench/open_bench.h"
 #include "core/monotonic.h"
 #include "rig/bench/shared_camera.h"
-#include "server/bench/live_picture.h"
 
 namespace faba {
 
