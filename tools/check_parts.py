@@ -27,6 +27,11 @@ CHOSEN = {
     "src/study/identify/best_scene.cpp": {"hold"},
     "src/study/identify/episode_simulation.cpp": {"box", "drop", "dipole", "places", "none", "manual"},
     "src/study/identify/matched_look.cpp": {"dipole"},
+    # The editor of coil systems draws these coils and sets their sizes.
+    "web/src/coils/geometry.ts": {"solenoid", "thick_coil", "helmholtz"},
+    "web/src/coils/system.ts": {"solenoid", "loop", "thick_coil", "helmholtz", "dipole"},
+    "web/src/pages/Coils.svelte": {"solenoid"},
+    "src/server/api/coils.cpp": {"dipole"},
 }
 # Other meanings of the names of parts: (name, meaning, files).
 OTHER_MEANINGS = (
@@ -38,19 +43,24 @@ OTHER_MEANINGS = (
     ("drop", "the verb, or its option in `faba track`",
      "src/cli/verbs/drop.cpp src/server/jobs/job_kinds.cpp src/server/tracks/track_request.cpp"),
     ("drop", "a drop of an experiment",
+     "src/server/api/bench.cpp src/server/bench/bench_recordings.cpp "
      "src/server/api/experiments.cpp src/server/experiments/experiment_changes.cpp src/server/experiments/experiment_store.cpp "
      "src/study/motion/activity_study.cpp "
      "web/src/pages/experiments/ExperimentPage.svelte web/src/pages/experiments/VideoRow.svelte"),
     ("drop", "the name of a file", "web/src/own/StartStep.svelte"),
-    ("edge", "a layer of the picture", "web/src/workbench/Stage.svelte web/src/video/overlays.ts web/src/video/VideoViewer.svelte"),
+    ("edge", "a layer of the picture", "web/src/bench/draw.ts web/src/i18n/bench.ts web/src/workbench/Stage.svelte web/src/video/overlays.ts web/src/video/VideoViewer.svelte"),
     ("edge", "the edge of the drop: a step, a key, a place of cells", "web/src/own/own.ts web/src/own/EdgeStep.svelte web/src/own/CellsStep.svelte"),
     ("hold", "a parameter", "src/sim/agents/adapted.cpp src/sim/agents/basic.cpp"),
+    ("hold", "the strength of a coil system, as a JSON key", "src/study/pages/field_report.cpp"),
+    ("map", "a coil that is a measured map", "src/server/api/coils.cpp"),
     ("map", "the verb", "src/cli/verbs/field/map.cpp src/server/jobs/job_kinds.cpp"),
     ("mean", "the average, as a JSON key, a parameter or a heading",
-     "src/app/bench/bench_view.cpp src/cli/verbs/compare.cpp src/study/identify/free_parameter.cpp "
+     "src/app/bench/live_picture.cpp src/cli/verbs/compare.cpp src/study/identify/free_parameter.cpp "
      "src/study/pages/compare_report.cpp src/study/pages/controller_report.cpp src/study/pages/identify_report.cpp "
      "src/study/pages/tracks/track_json.cpp src/study/pages/calibration/calibration_json.cpp web/src/i18n/analyse.ts"),
+    ("dipole", "a word of a translated message", "web/src/i18n/program/refusals/coils.ts"),
     ("none", "advice in a translated message", "web/src/i18n/program/refusals/scenario.ts"),
+    ("none", "no experiment, or a style of the page", "web/src/i18n/bench.ts web/src/bench/Histogram.svelte web/src/bench/ScheduleTimeline.svelte"),
     ("none", "no defect", "src/rig/setup/amplifier.cpp"),
     ("none", "no fault of the guard", "src/rig/setup/coil_guard.cpp"),
     ("none", "no exclusion", "src/sim/exclusion.cpp"),
@@ -66,7 +76,7 @@ OTHER_MEANINGS = (
     ("none", "no recording that can be shown", "web/src/pages/runs/ReplayPage.svelte"),
     ("rig", "the section [rig]",
      "src/app/bench/bench_controls.cpp src/app/bench/simulated_bench.cpp src/app/bench/step_response.cpp "
-     "src/app/recording/manifest.cpp src/app/scenario/scenario.h src/rig/bench/bench_rig.cpp src/server/runs/run_card.cpp"),
+     "src/app/recording/manifest.cpp src/app/scenario/scenario.h src/rig/bench/bench_rig.cpp src/server/api/gallery.cpp src/server/runs/run_card.cpp"),
     ("rig", "the verb", "src/app/bench/bench_process.cpp src/cli/verbs/rig/rig.cpp"),
     ("rig", "the file of a coil system, as an argument or a key",
      "src/app/files/library_file.cpp src/cli/options/field.cpp src/cli/verbs/field/fit.cpp src/cli/verbs/schema.cpp "
@@ -80,7 +90,7 @@ OTHER_MEANINGS = (
 # Comparison of a string with p.type, p.name() or j["type"], in either order. The empty string and the types of JSON Schema,
 # of input elements and of events in the browser are not parts.
 WHAT = r'(?:\.(?:type|name)(?:\(\))?|\["(?:type|name)"\])'
-KIND = "(?:|number|integer|string|boolean|array|object|const|checkbox|range|pointerup)"
+KIND = "(?:|number|integer|string|boolean|array|object|const|checkbox|range|pointerup|keydown)"
 COMPARED = re.compile(rf'{WHAT} *[!=]==? *["\'](?!{KIND}["\'])|["\'] *[!=]==? *[\w.\[\]>-]*{WHAT}')
 LIST = "src/app/parts.cpp"
 SOURCES = ("src/**/*.cpp", "src/**/*.h", "web/src/**/*.ts", "web/src/**/*.svelte")

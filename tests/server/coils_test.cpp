@@ -73,7 +73,7 @@ TEST_CASE("a coil system is evaluated: grids, zeros, trap and strength") {
 TEST_CASE("requests out of range are refused with the permitted values") {
   const Served lab;
   check_refused(lab, changed("columns", 65), "columns", "between 1 and 64");
-  check_refused(lab, changed("width_m", 1e9), "width_m", "between 0.0001 and 10 m");
+  check_refused(lab, changed("width_m", 1e9), "width_m", "between 0.0001 and 10");
   check_refused(lab, changed("probe_m", {0, 0}), "probe_m", "3 coordinates");
   check_refused(lab, changed("target_m", {0, 1e300}), "target_m", "2 coordinates");
   check_refused(lab, changed("polarity", "east"), "polarity", "north or south");

@@ -44,8 +44,8 @@ def main():
             root = pathlib.Path(folder)
             (root / "src/core").mkdir(parents=True)
             (root / "src/core/a.cpp").write_text(source + "\n")
-            (root / "src/guard").mkdir()
-            (root / "src/guard/main.cpp").write_text('void f() { throw Error(Errc::input, "a", "only in the journal"); }\n')
+            (root / "src/cli").mkdir()
+            (root / "src/cli/main.cpp").write_text('void f() { throw Error(Errc::input, "a", "only in the terminal"); }\n')
             found, unknown = printed(root), printed(root, "--unresolved")
         if sorted(found) != expected or len(unknown) != unresolved:
             failed.append(f"{name}: {found}, unresolved {unknown}; expected {expected}, unresolved {unresolved}")

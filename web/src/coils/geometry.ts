@@ -127,7 +127,7 @@ export function resizedTo(s: System, c: Coil, plane: Plane, to: Point, step: num
   const size = { ...c.size };
   const along = 2 * Math.abs(u * unit[0] + v * unit[1]), away = length < 0.001 ? Math.hypot(u, v) : Math.abs(v * unit[0] - u * unit[1]);
   const r = Math.max(least, snapped(away, step));
-  if (c.type === 'thick_coil') size.outer_radius = Math.max(r, size.inner_radius + least);
+  if ('outer_radius' in size) size.outer_radius = Math.max(r, size.inner_radius + least);
   else size.radius = r;
   for (const key of ['length', 'distance']) if (key in size && length > 0.999) size[key] = Math.max(least, snapped(along, step));
   return changed(s, c.id, { size });
