@@ -132,6 +132,7 @@ await step('the trap agrees with faba field null, for both polarities, and where
     assert.deepEqual(shown, lines.slice(0, 4).map((l) => l.replace(/^\w+ +/, '')));
     assert.deepEqual((await texts('trap-gradient')).map((t) => t.replace('Gradients', 'gradient   ')), [lines[4]]);
   };
+  await page.getByLabel('Polarity').selectOption('north');
   await compare();
   await page.getByLabel('Polarity').selectOption('south');
   await compare('--polarity', 'south');

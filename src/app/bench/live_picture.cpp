@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "core/monotonic.h"
 #include "vision/files/frame_encoder.h"
@@ -14,7 +15,13 @@ namespace {
 constexpr double kRateTime = 1;          // s, averaging time of the frame rate
 constexpr double kPictureTimeout = 2;    // s without a picture, after which this is reported
 constexpr double kEstimatePeriod = 0.1;  // s between two estimates: ten per second look continuous
+constexpr double kMostSaturated = 0.02;  // of the pixels; in brighter pictures cells are not visible; assumed
 constexpr std::size_t kBins = 64;        // of the histogram, each of 4 grey levels
+
+double saturated(const Gray8& picture) {
+  const auto white = std::count(picture.px.begin(), picture.px.end(), std::uint8_t(255));
+  return double(white) / double(std::max<std::size_t>(1, picture.px.size()));
+}
 
 void add_little_endian(std::string& to, std::uint32_t value, int bytes) {
   for (int i = 0; i < bytes; ++i) to.push_back(char(value >> (8 * i) & 0xff));
@@ -42,6 +49,8 @@ std::string bitmap(const Gray8& picture) {
   return out;
 }
 
+}  // namespace
+
 Json swarm_json(const Estimate& e, const Frame& frame) {
   if (!(e.visible > 0)) return nullptr;
   const Vec2 centre = frame.image_from_world(e.centroid);
@@ -52,11 +61,9 @@ Json swarm_json(const Estimate& e, const Frame& frame) {
           {"covariance_px2", {k * e.cov.xx, -k * e.cov.xy, k * e.cov.yy}}};
 }
 
-}  // namespace
-
 LivePicture::LivePicture(const Scenario& s)
     : received_(monotonic_now()),
-      controls_(s),
+      scenario_(s),
       estimator_([this](const std::stop_token& stop) { estimate_swarms(stop); }) {}
 
 LivePicture::~LivePicture() = default;
@@ -90,7 +97,13 @@ double LivePicture::lateness() const {
   return lateness_;
 }
 
+void LivePicture::forget_brightness() {
+  const std::lock_guard lock(mutex_);
+  brightness_changed_ = true;
+}
+
 void LivePicture::estimate_swarms(const std::stop_token& stop) {
+  auto controls = std::make_unique<BenchControls>(scenario_);
   std::uint64_t last = 0;
   double began = 0;
   while (!stop.stop_requested()) {
@@ -104,10 +117,12 @@ void LivePicture::estimate_swarms(const std::stop_token& stop) {
       seen.frame = last;
       seen.t = newest_.t - began;
       seen.image = newest_.image;
+      if (std::exchange(brightness_changed_, false)) controls = std::make_unique<BenchControls>(scenario_);
     }
     Json estimate;
     try {
-      estimate = swarm_json(controls_.estimator->update(seen, {}), controls_.frame);
+      if (saturated(*seen.image) <= kMostSaturated)
+        estimate = swarm_json(controls->estimator->update(seen, {}), controls->frame);
     } catch (const Error&) {  // NOLINT(bugprone-empty-catch): a display without the estimate
     }
     {

@@ -10,6 +10,9 @@
 
 namespace faba {
 
+/// "cells", "centroid_px" and "covariance_px2" of a swarm in a picture; null without cells.
+Json swarm_json(const Estimate& e, const Frame& frame);
+
 /// The newest frame of a camera for display: its rate, histogram and position of the swarm. The estimate is
 /// that of the scene's estimator, for some of the frames, in a separate thread. Thread-safe.
 class LivePicture {
@@ -22,6 +25,8 @@ class LivePicture {
   /// Another user reads the camera from now on: the numbers of its frames have a gap, and the lateness is
   /// measured again.
   void resume();
+  /// The brightness of the pictures changes: the estimator starts again.
+  void forget_brightness();
   double lateness() const;  ///< s, largest age of a frame on arrival
   /// Adds "frames", "dropped", "corrupt", "rate_hz", "mean", "saturated", "histogram" and "estimate" to `j`,
   /// and "trouble" if no frames arrive.
@@ -43,7 +48,8 @@ class LivePicture {
   std::uint64_t frames_ = 0, dropped_ = 0, corrupt_ = 0;
   std::uint64_t last_number_ = 0;  ///< 0: the next frame follows a gap
   Json estimate_;
-  BenchControls controls_;
+  const Scenario scenario_;
+  bool brightness_changed_ = false;
   std::jthread estimator_;
 };
 

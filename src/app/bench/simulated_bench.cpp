@@ -215,6 +215,8 @@ void accept_client(BenchSocket client, Coils& coils, Sender& sender) {
       hello.version != kBenchVersion)
     return;
   // One client per role: the connection of a second one is closed.
+  // The client before may have disconnected since the last call of work().
+  if (hello.role == BenchHello::Role::coils && coils.connected()) coils.work();
   if (hello.role == BenchHello::Role::coils && !coils.connected())
     coils.connect(std::move(client));
   else if (hello.role == BenchHello::Role::camera && !sender.connected())

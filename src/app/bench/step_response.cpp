@@ -14,6 +14,7 @@
 #include "core/portable_math.h"
 #include "core/units.h"
 #include "core/urgent.h"
+#include "vision/files/video_reader.h"
 
 namespace faba {
 namespace {
@@ -93,7 +94,6 @@ class StudyFile {
       experiment_ = std::to_string(std::unique(names.begin(), names.end()) - names.begin() + 1);
     }
     direction_ = std::fmod(p.direction + 180, 360);
-    from_ = p.before;
   }
   const std::string& experiment() const { return experiment_; }
   void add(const RecordedResponse& r) {
@@ -101,7 +101,7 @@ class StudyFile {
                               {"exposure", fmt::format("{:.1f} s", r.exposure)},
                               {"experiment", experiment_},
                               {"direction", direction_},
-                              {"from", fmt::format("{} s", from_)}});
+                              {"from", fmt::format("{:.4g} s", r.reversal)}});
     write_file(path_, to_toml(root_));
   }
 
@@ -109,7 +109,7 @@ class StudyFile {
   std::filesystem::path path_;
   std::string experiment_;
   Json root_ = Json::object();
-  double direction_ = 0, from_ = 0;  ///< deg; s
+  double direction_ = 0;  ///< deg
 };
 
 // A schedule in real time that can be stopped.
@@ -157,7 +157,22 @@ void gather(OpenBench& bench, const Scenario& s, const Schedule& schedule, Recor
   if (out.cells > 0) out.at_px = controls.frame.image_from_world(newest.estimate.centroid);
 }
 
+// Time in the video of a run of what happened `t` s after its start. The frames of the video have equal
+// distances, also where the camera dropped some.
+double time_in_video(const BenchSession& session, double t) {
+  const Table series = session.series();
+  const auto times = series.column("t_s");
+  const auto before = std::count_if(times.begin(), times.end(), [t](double at) { return at < t; });
+  const double rate = VideoReader(session.dir() / "video.avi").fps();
+  return rate > 0 ? double(before) / rate : t;
+}
+
 }  // namespace
+
+void check_step_response(const Document& scene) {
+  const Json::json_pointer field_key("/rig/step_response/field");
+  check_field(scenes_of(scene).gather, !scene.root.contains(field_key));
+}
 
 std::string schedule_note(const StepResponseParams& p) {
   const double one = p.gather + p.before + p.record;
@@ -215,6 +230,7 @@ std::vector<RecordedResponse> record_step_responses(const StepResponseJob& job) 
     if (!session.run()) check();
     response.frames = session.manifest().frames;
     response.dropped = session.manifest().bench->frames_dropped;
+    response.reversal = time_in_video(session, p.before);
     if (job.done) job.done(response);
     session.complete();
     study.add(response);

@@ -14,6 +14,7 @@ struct RecordedResponse {
       at_px;         ///< image position of the swarm before the reversal; empty if no swarm was detected
   double cells = 0;  ///< number of cells of the swarm
   std::uint64_t frames = 0, dropped = 0;
+  double reversal = 0;  ///< s, time of the field reversal in the video, which has no gaps for dropped frames
 };
 
 /// Options of record_step_responses().
@@ -26,6 +27,10 @@ struct StepResponseJob {
   std::function<void(const RecordedResponse&)>
       done;  ///< called after each; its directory is then complete except for a report
 };
+
+/// Throws Error(usage) if a scenario is not suitable for step responses, such as for a field that the coils
+/// cannot produce.
+void check_step_response(const Document& scene);
 
 /// Note that `every` is shorter than one response; empty if it is not, or 0, or if there is only one
 /// response.

@@ -29,7 +29,10 @@ class ViewedBench {
   std::shared_ptr<Camera> camera() const { return std::make_shared<SharedCamera>(device_); }
   BenchDevices devices(BenchWatcher* watcher) const { return {simulated_, camera(), watcher}; }
   /// Throws Error(usage) for a control or value that the camera does not support.
-  void set(const CameraControl& c) { device_->camera->set(c); }
+  void set(const CameraControl& c) {
+    device_->camera->set(c);
+    live_->forget_brightness();
+  }
   /// Adds its members of the state for pages; `all`: also those for the page of the bench only.
   void describe(Json& j, bool all) const;
 

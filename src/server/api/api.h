@@ -13,7 +13,7 @@ class Api {
       std::function<void(const Json&)> news);
 
   /// The page that steers, which alone may arm the coils of a bench; 0: none.
-  void steering(std::uint64_t page) { bench_.permits().steering(page); }
+  void steering(std::uint64_t page) { bench_.steering(page); }
 
   /// Never throws: errors become responses with a status and {"where", "what"}.
   WebResponse answer(const WebRequest& r);

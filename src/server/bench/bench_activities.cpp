@@ -92,10 +92,11 @@ void BenchConsole::run(double duration_s, BenchDestination to, std::uint64_t pag
 
 void BenchConsole::step_responses(const Json& changes, BenchDestination to, std::uint64_t page,
                                   const std::string& permit) {
-  permits_.use(permit, page, "step-response", monotonic_now());
   Document d = with_exposure(bench(true)->scene(), exposure());
   for (const auto& [key, value] : changes.items()) d.set("rig.step_response." + key, value, "bench");
-  const Scenario s = read_scenario(d, builtin_parts());  // reports wrong values before anything starts
+  const Scenario s = read_scenario(d, builtin_parts());
+  check_step_response(d);  // reports wrong values before anything starts
+  permits_.use(permit, page, "step-response", monotonic_now());
   start(new_activity("step-response", to.title, true), [this, d, s, to](ViewedBench& b, BenchActivity& a) {
     b.stop_view();
     const StepResponseParams p = s.rig->step_response;
@@ -114,7 +115,7 @@ void BenchConsole::step_responses(const Json& changes, BenchDestination to, std:
                  .experiment = to.experiment,
                  .drop = to.drop,
                  .exposure_s = r.exposure,
-                 .reversal_s = p.before,
+                 .reversal_s = r.reversal,
                  .field_deg = field_after_reversal(p, s.polarity()),
                  .field_t = p.field,
                  .polarity = s.polarity()});
@@ -125,15 +126,8 @@ void BenchConsole::step_responses(const Json& changes, BenchDestination to, std:
   });
 }
 
-// What the page of a jog asks for. The thread of the jog reads it.
-struct BenchConsole::Jog {
-  std::string secret = random_token();
-  std::mutex mutex;  // protects the following members
-  std::uint64_t number = 0;
-  double heard = monotonic_now();  ///< s, the newest message
-  std::vector<double> current;     ///< A
-  bool reset = false;
-};
+BenchConsole::Jog::Jog(std::uint64_t of_page)
+    : secret(random_token()), page(of_page), heard(monotonic_now()) {}
 
 std::string BenchConsole::work_of_jog(ViewedBench& b, BenchActivity& a, Jog& asked) {
   Scenario s = b.scenario();
@@ -165,13 +159,16 @@ std::string BenchConsole::work_of_jog(ViewedBench& b, BenchActivity& a, Jog& ask
     const std::lock_guard lock(asked.mutex);
     asked.current.clear();  // no current until the page asks for one after the fault
   }
+  const GuardReport last = coils.report();
   jog.disarm();
+  if (last.state == CoilGuard::State::tripped)
+    throw Error(Errc::device, "coil guard", std::string(last.reason.data()) + "; the coils are de-energised");
   return "";
 }
 
 JogSession BenchConsole::jog(std::uint64_t page, const std::string& permit) {
   permits_.use(permit, page, "jog", monotonic_now());
-  const auto asked = std::make_shared<Jog>();
+  const auto asked = std::make_shared<Jog>(page);
   const std::vector<double> most = permitted_currents(bench(true)->scenario());
   start(
       new_activity("jog", "", true),

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "app/bench/live_picture.h"
 #include "app/bench/memory.h"
 
 namespace faba {
@@ -10,6 +11,7 @@ void BenchActivity::cycle(const Tick& t, const GuardReport& guard) {
   const std::lock_guard lock(mutex_);
   current_ = t.command.current;
   guard_ = guard;
+  estimate_ = t.estimate;
   const Vec2 to = t.target.position;
   setpoint_px_.reset();
   if (std::isfinite(to.x) && std::isfinite(to.y)) setpoint_px_ = frame_.image_from_world(to);
@@ -109,6 +111,7 @@ void BenchActivity::describe(Json& state) const {
   state["coils"] = coils_json();
   state["guard"] = guard_json();
   state["armed"] = guard_ && guard_->state == CoilGuard::State::armed;
+  if (estimate_) state["estimate"] = swarm_json(*estimate_, frame_);
   if (setpoint_px_) state["setpoint_px"] = {setpoint_px_->x, setpoint_px_->y};
 }
 

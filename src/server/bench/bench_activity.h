@@ -55,6 +55,7 @@ class BenchActivity final : public BenchWatcher {
   std::vector<double> current_;      ///< A
   std::optional<GuardReport> guard_;
   std::optional<Vec2> setpoint_px_;
+  std::optional<Estimate> estimate_;  ///< of the control loop
   std::uint64_t done_ = 0, total_ = 0;
   std::pair<double, std::uint64_t> first_;  ///< time of the first report of the progress, s, and its `done`
   std::optional<Captured> captured_;

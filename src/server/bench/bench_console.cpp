@@ -169,8 +169,8 @@ void BenchConsole::finish(const std::shared_ptr<BenchActivity>& activity, Json r
   {
     const std::lock_guard lock(mutex_);
     result["at"] = monotonic_now();
-    if (result["ok"] == false && activity->uses_coils) {
-      fault_ = result["what"];
+    if (activity->uses_coils) {  // the last use of the coils had this fault, or none
+      fault_ = result["ok"] == false ? result["what"] : Json("");
       fault_at_ = monotonic_now();
     }
     finished_.push_front(std::move(result));
@@ -180,6 +180,12 @@ void BenchConsole::finish(const std::shared_ptr<BenchActivity>& activity, Json r
   }
   permits_.revoke();
   tell();
+}
+
+void BenchConsole::steering(std::uint64_t page) {
+  permits_.steering(page);
+  const std::lock_guard lock(mutex_);
+  if (activity_ && jog_ && jog_->page != page) activity_->stop = true;
 }
 
 void BenchConsole::stop() {
@@ -221,11 +227,11 @@ Json BenchConsole::describe(bool all) {
     }
     j["finished"] = std::move(finished);
   }
+  if (b) b->describe(j, all);
   if (a) {
     a->describe(j);
     if (b) j["activity"]["late_ms"] = 1e3 * b->live().lateness();
   }
-  if (b) b->describe(j, all);
   return j;
 }
 

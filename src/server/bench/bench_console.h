@@ -86,6 +86,8 @@ class BenchConsole {
   /// Resets a fault of the guard and arms again.
   void jog_reset(const std::string& session, std::uint64_t page, const std::string& permit);
 
+  /// The page that steers; 0: none. A jog of another page ends.
+  void steering(std::uint64_t page);
   /// Asks the activity to end.
   void stop();
   /// Ends an activity that uses the coils, and makes all permits void. Never fails.
@@ -93,7 +95,17 @@ class BenchConsole {
   ArmingPermits& permits() { return permits_; }
 
  private:
-  struct Jog;
+  // What the page of a jog asks for. The thread of the jog reads it.
+  struct Jog {
+    explicit Jog(std::uint64_t of_page);
+    const std::string secret;
+    const std::uint64_t page;
+    std::mutex mutex;  // protects the following members
+    std::uint64_t number = 0;
+    double heard;                 ///< s, the newest message
+    std::vector<double> current;  ///< A
+    bool reset = false;
+  };
   /// Returns a note on its end; may be empty.
   using Work = std::function<std::string(ViewedBench&, BenchActivity&)>;
 

@@ -38,6 +38,32 @@ std::vector<Vec3> grid_points(const CoilDesignOptions& o, CoilDesignOptions::Pla
   return at;
 }
 
+Vec3 place_of(const CoilDesignOptions& o) { return {o.target.x, o.target.y, 0}; }
+
+// Name of a coil that has a part of the sample in it.
+std::string coil_in_sample(const Field& field, const CoilDesignOptions& o) {
+  for (const double part : {0.5, 1.0})
+    for (int i = 0; i < kDirections; ++i) {
+      const double angle = 2 * kPi * i / kDirections, r = part * o.sample;
+      const std::string name =
+          coil_around(field, {o.target.x + r * std::cos(angle), o.target.y + r * std::sin(angle)});
+      if (!name.empty()) return name;
+    }
+  return "";
+}
+
+// Whether the sample contains a zero of the field besides the one at its centre.
+bool has_other_zero(const Field& field, const FieldNull& trap, const CoilDesignOptions& o) {
+  constexpr int kStarts = 9;
+  const double width = 2 * (std::fabs(o.target.x) + o.sample),
+               height = 2 * (std::fabs(o.target.y) + o.sample);
+  for (const FieldMap::Zero& z : field_zeros(field, trap.current, width, height, kStarts)) {
+    const double distance = std::hypot(z.at.x - o.target.x, z.at.y - o.target.y);
+    if (distance > 0.02 * o.sample && distance < o.sample) return true;
+  }
+  return false;
+}
+
 void add_steering(HoldStrength& h, const FieldRange& range, const CoilDesignOptions& o) {
   const FieldResponse& cell = o.cell;
   h.weakest = range.weakest();
@@ -50,19 +76,24 @@ void add_steering(HoldStrength& h, const FieldRange& range, const CoilDesignOpti
   h.u_turn = h.turning > 0 ? kPi * cell.speed / h.turning : kInfinity;
 }
 
-void add_trap(HoldStrength& h, const FieldNull& trap, const CoilDesignOptions& o) {
+void add_trap(HoldStrength& h, const Field& field, const FieldNull& trap, const CoilDesignOptions& o) {
   const FieldResponse& cell = o.cell;
   const double half = o.sample / 2;
   h.trap.required = cell.turning > 0 ? cell.speed / (cell.turning * half * half) : kInfinity;
   if (!trap.reachable) return;
   h.trap.available = o.polarity > 0 ? -trap.gradient[1] : trap.gradient[0];
+  h.vertical = std::fabs(field.at(place_of(o), trap.current).z);
+  h.tilted = h.vertical > h.trap.available * half;
+  h.crowded = !o.fast && h.trap.met() && has_other_zero(field, trap, o);
 }
 
 HoldStrength hold_strength(const Field& field, const FieldNull& trap, std::span<const double> most,
                            const CoilDesignOptions& o) {
   HoldStrength h;
-  add_steering(h, FieldRange(field, {o.target.x, o.target.y, 0}, most), o);
-  add_trap(h, trap, o);
+  add_steering(h, FieldRange(field, place_of(o), most), o);
+  const std::vector<double> off(most.size(), 0.0);
+  h.steering.required = std::max(h.steering.required, std::fabs(field.at(place_of(o), off).z));
+  add_trap(h, field, trap, o);
   const double slope = o.cell.turning * h.trap.available;
   h.swarm_sd = slope > 0 ? std::sqrt(o.cell.speed / slope) : kInfinity;
   return h;
@@ -84,6 +115,7 @@ CoilDesign coil_design(const Field& field, const CoilDesignOptions& o) {
   constexpr int kFastStarts = 7, kStarts = 21;
   d.zeros = field_zeros(field, current, o.width, o.height, o.fast ? kFastStarts : kStarts);
   d.inside = coil_around(field, o.target);
+  d.reached = coil_in_sample(field, o);
   d.trap = null_at(field, o.target, o.polarity, d.limit);
   d.hold = hold_strength(field, d.trap, d.limit, o);
   return d;

@@ -31,7 +31,8 @@ struct HoldStrength {
     double available = 0, required = 0;
     bool met() const { return available >= required; }
   };
-  /// Largest field in the weakest direction, T. Required: the swarm is aligned, and turns within the sample.
+  /// Largest field in the weakest direction, T. Required: the swarm is aligned, turns within the sample, and
+  /// is not tilted by more than 45 deg by the field along z without currents.
   Criterion steering;
   double for_alignment = 0, for_turning = 0;  ///< the two required fields, T
   FieldRange::Weakest weakest;                ///< direction, rad
@@ -43,6 +44,12 @@ struct HoldStrength {
   /// Required: two standard deviations of the swarm are within the sample.
   Criterion trap;
   double swarm_sd = 0;  ///< standard deviation of the swarm in this zero, m; infinite for a saddle
+  /// Field along z at the position in the zero, T. The cells point along the total field: where it is
+  /// stronger than the field in the plane, they swim out of it.
+  double vertical = 0;
+  bool tilted = false;   ///< the cells are tilted by more than 45 deg at half the radius of the sample
+  bool crowded = false;  ///< the sample contains another zero of this field, so only a part of it is trapped
+  bool trapped() const { return trap.met() && !tilted && !crowded; }
 };
 
 struct CoilDesign {
@@ -54,6 +61,7 @@ struct CoilDesign {
   std::vector<FieldMap::Zero> zeros;  ///< with the default currents, in the rectangle, z = 0
   FieldNull trap;                     ///< at the target; NaN where the field is unknown
   std::string inside;                 ///< name of the coil that has the target in it; empty if none has
+  std::string reached;  ///< name of a coil that has a part of the sample in it; empty if none has
   HoldStrength hold;
 };
 CoilDesign coil_design(const Field& field, const CoilDesignOptions& options);

@@ -48,8 +48,10 @@ void describe_objective(Schema<OpticsSetup>& s) {
            {.min = 0.01,
             .max = 100,
             .doc = "Focal length of the tube lens over the one for which the objective is designed, times "
-                   "that of any relay; used with pixel_size",
-            .source = "the lens of the thesis, 150 mm (appendix A), over 200 mm (Nikon CFI, not looked up)"});
+                   "that of any relay; used with pixel_size. The thesis: 0.75, a lens of 150 mm (appendix A) "
+                   "over "
+                   "200 mm (Nikon CFI, not looked up)",
+            .source = "the tube lens for which the objective is designed, without a relay"});
 }
 
 void describe_camera(Schema<OpticsSetup>& s) {

@@ -13,7 +13,7 @@ struct OpticsSetup {
   /// Image scale; default: kThesisUmPerPx times 10 / magnification, or from the size of a camera pixel.
   std::optional<double> um_per_px = {};
   std::optional<double> pixel_size = {};  ///< m, of the camera sensor
-  double tube_factor = 0.75;            ///< focal length of the tube lens over that of the objective's system
+  double tube_factor = 1;               ///< focal length of the tube lens over that of the objective's system
   int width_px = 640, height_px = 480;  ///< of the pictures
   double frame_rate = 15;               ///< Hz
   std::optional<double> exposure_time = {};  ///< s; default: the smaller of 10 ms and half the frame period

@@ -39,6 +39,10 @@ Json hold_json(const HoldStrength& h) {
   j["u_turn_m"] = h.u_turn;
   j["trap_t_per_m"] = criterion_json(h.trap);
   j["swarm_sd_m"] = h.swarm_sd;
+  j["vertical_t"] = h.vertical;
+  j["tilted"] = h.tilted;
+  j["crowded"] = h.crowded;
+  j["trapped"] = h.trapped();
   return j;
 }
 
@@ -111,6 +115,7 @@ Json field_json(const CoilDesign& d) {
   for (const FieldMap::Zero& z : d.zeros) j["zeros"].push_back(zero_json(z));
   j["trap"] = null_json(d.trap);
   j["inside"] = d.inside;
+  j["reached"] = d.reached;
   j["hold"] = hold_json(d.hold);
   return j;
 }

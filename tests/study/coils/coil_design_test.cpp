@@ -116,3 +116,31 @@ TEST_CASE("a position in a coil has no strength") {
   o.target = {35e-3, 5e-3};  // in the winding
   CHECK_FALSE(coil_design(*rig("thesis-four-coils.toml"), o).hold.trap.met());
 }
+
+TEST_CASE("the swarm is not trapped if a field along z tilts the cells, or the sample is too large") {
+  const auto tilted = [](const char* along_z) {
+    Document d = read_toml(kRigs / "thesis-four-coils.toml");
+    d.root["earth"] = {{"field", {"0 T", "0 T", along_z}}};
+    return coil_design(*read_rig(d, builtin_parts()).make({}), options()).hold;
+  };
+  // The zero in the plane is the same; at half of the radius of 1 mm it has a field of 9.7 uT.
+  CHECK(tilted("9 uT").trapped());
+  CHECK_FALSE(tilted("11 uT").trapped());
+  CHECK(tilted("11 uT").trap.met());
+  CHECK(tilted("11 uT").vertical == doctest::Approx(11e-6));
+  // Steering needs a field in the plane that is at least as strong.
+  CHECK(tilted("200 uT").steering.met());
+  CHECK(tilted("200 uT").steering.required == doctest::Approx(200e-6));
+  CHECK_FALSE(tilted("500 uT").steering.met());
+
+  // Saddles are 9 mm from the centre, and the coils begin at 15 mm.
+  CoilDesignOptions large = options();
+  const auto four = rig("thesis-four-coils.toml");
+  large.sample = 8e-3;
+  CHECK(coil_design(*four, large).hold.trapped());
+  large.sample = 12e-3;
+  CHECK(coil_design(*four, large).hold.crowded);
+  CHECK(coil_design(*four, large).reached.empty());
+  large.sample = 20e-3;
+  CHECK_FALSE(coil_design(*four, large).reached.empty());
+}

@@ -25,6 +25,10 @@ export interface Hold {
   u_turn_m: number | null;
   trap_t_per_m: Criterion;
   swarm_sd_m: number | null;
+  vertical_t: number;
+  tilted: boolean;
+  crowded: boolean;
+  trapped: boolean;
 }
 /** See POST /api/coils/evaluate in web/protocol.md. */
 export interface Evaluation {
@@ -36,6 +40,7 @@ export interface Evaluation {
   zeros: Zero[];
   trap: { currents_a: number[]; eigenvalues_t_per_m: [number | null, number | null]; dbz_dz_t_per_m: number | null; reachable: boolean; saddle: boolean };
   inside: string;
+  reached: string;
   hold: Hold;
 }
 export interface Request {

@@ -48,6 +48,7 @@ export const bench: Record<string, string> = {
   'stopped because the memory was full': 'parada porque a memória estava cheia',
   'stopped by the user': 'parada pelo usuário',
   'the page was silent: the coils were switched off': 'a página ficou em silêncio: as bobinas foram desligadas',
+  '{}; the coils are de-energised': '{}; as bobinas estão desenergizadas',
   'this jog has ended; the coils are switched off': 'este controle manual terminou; as bobinas estão desligadas',
   '{} is not after {}, the newest message of this jog': '{} não vem depois de {}, a mensagem mais nova deste controle manual',
   '{}; the recording is in {}, but not in the experiment': '{}; a gravação está em {}, mas não no experimento',
