@@ -197,7 +197,9 @@ TEST_CASE("step responses have field, exposure and polarity in the experiment") 
   const Experiment e = read_experiment(b.lab.folder() / "experiments" / experiment / "experiment.toml");
   REQUIRE(e.videos.size() == 2);
   CHECK(e.videos[1].exposure_s.value() > e.videos[0].exposure_s.value());
-  CHECK(e.videos[0].reversal_s.value() == 0.5);
+  // In the time of the video: 0.5 s, or less if the camera has dropped frames before.
+  CHECK(e.videos[0].reversal_s.value() <= 0.5 + 1 / 30.);
+  CHECK(e.videos[0].reversal_s.value() > 0.2);
   CHECK(e.videos[0].field_strength.value() == doctest::Approx(20e-6));
   CHECK(e.drops[0].polarity == CellPolarity::south);
   // The cells swam to the left (180) and swim to the right (0) after the reversal.

@@ -188,7 +188,10 @@ await step('step responses on a schedule are videos of an experiment with field,
   assert.equal(state.finished[0].ok, true, state.finished[0].what);
   const text = toml('bench');
   assert.equal(text.match(/field_strength = "20 uT"/g)?.length, 2);
-  assert.equal(text.match(/reversal = "0.5 s"/g)?.length, 2);
+  // In the time of the video: 0.5 s, or less if the camera has dropped frames before.
+  const reversals = [...text.matchAll(/reversal = "([\d.]+) s"/g)].map((m) => Number(m[1]));
+  assert.equal(reversals.length, 2);
+  assert.ok(reversals.every((t) => t > 0.2 && t <= 0.5 + 1 / 30), reversals.join());
   assert.match(text, /name = "B"\s+polarity = "(north|south)"|polarity = "(north|south)"\s+name = "B"/);
 });
 
@@ -204,7 +207,9 @@ await step('jog: the sensed current follows, and the coils are off when the pane
   await shot('jog');
   await current.fill('9999');
   await current.press('Enter');
-  assert.equal(await current.inputValue(), '400');
+  // A current above the limit is not sent: a decimal point may be missing.
+  await page.getByRole('alert').filter({ hasText: '“9999” was not sent' }).waitFor();
+  assert.equal(await current.inputValue(), '100');
   await page.locator('h2').first().click();
   await button('Coil 2: +20 mA').click();
   await until(async () => (await bench()).coils[1].current_a > 0.019, 'a step of another coil');
