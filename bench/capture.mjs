@@ -21,28 +21,29 @@ const { chromium } = createRequire(join(root, 'web', 'package.json'))('playwrigh
 const folder = mkdtempSync(join(tmpdir(), 'faba-capture-bench-'));
 for (const f of ['scenes', 'rigs']) cpSync(join(root, f), join(folder, f), { recursive: true });
 
-const { lab, address } = await serve(program, folder);
+const { lab, address, port, token } = await serve(program, folder);
 const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox'] });
 const page = await browser.newPage({ viewport: { width: 1440, height: 900 } });
+// Counts the pictures that the page fetches.
+await page.addInitScript(() => {
+  window.pictures = 0;
+  const real = window.fetch;
+  window.fetch = (path, ...rest) => (String(path).includes('/api/bench/picture') && ++window.pictures, real(path, ...rest));
+});
 await page.goto(address);
-/** A request of the page. */
-const ask = (path, body) =>
-  page.evaluate(
-    async ([p, b]) => {
-      const answer = await fetch(p, b ? { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(b) } : {});
-      return answer.json();
-    },
-    [path, body],
-  );
+/** A request with the rights of the page. */
+const ask = async (path, body) => {
+  const headers = { Cookie: `faba-${port}=${token}`, Origin: `http://127.0.0.1:${port}`, 'Sec-Fetch-Site': 'same-origin', 'Content-Type': 'application/json' };
+  const answer = await fetch(`http://127.0.0.1:${port}${path}`, body ? { method: 'POST', headers, body: JSON.stringify(body) } : { headers });
+  return answer.json();
+};
 assert.equal((await ask('/api/bench/open', { scene: 'bench' })).open, 'bench');
 await page.evaluate(() => (location.hash = '#/bench'));
 await wait(3000); // the browser has loaded the page
-let pictures = 0;
-page.on('response', (r) => r.url().includes('/api/bench/picture') && ++pictures);
 const seconds = 60 * minutes, rows = [];
 for (const watching of [true, false]) {
   if (!watching) await page.evaluate(() => (location.hash = '#/jobs'));
-  pictures = 0;
+  const before = await page.evaluate(() => window.pictures);
   const began = await ask('/api/bench/capture', { time_s: watching ? seconds : Math.min(60, seconds), name: 'look' });
   assert.equal(began.activity?.kind, 'capture', JSON.stringify(began));
   let state = began;
@@ -59,6 +60,7 @@ for (const watching of [true, false]) {
   assert.equal(times, f.kept);
   const size = statSync(join(folder, f.out)).size;
   assert.ok(size > 1000 * f.kept);
+  const pictures = (await page.evaluate(() => window.pictures)) - before;
   rows.push({ watching, ...f, frames, size, pictures, share: f.dropped / frames });
 }
 await browser.close();
