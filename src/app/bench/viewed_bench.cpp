@@ -19,15 +19,13 @@ ViewedBench::ViewedBench(const Document& scene, std::string name)
     simulated_ = std::make_shared<BenchProcess>(scenario_, seed());
   device_->camera =
       OpenBench(scenario_, seed(), OpenBench::Open::all, {simulated_, nullptr, nullptr}).camera();
-  live_ = std::make_unique<LivePicture>(scenario_);
-  device_->seen = [this](const CameraFrame& f) { live_->take(f); };
+  live_ = std::make_shared<LivePicture>(scenario_);
+  device_->seen = [live = live_](const CameraFrame& f) { live->take(f); };
 }
 
 ViewedBench::~ViewedBench() {
   device_->camera->interrupt();  // a camera that hangs must not delay the end
   stop_view();
-  const std::lock_guard lock(device_->reading);
-  device_->seen = nullptr;
 }
 
 void ViewedBench::view() {

@@ -51,7 +51,7 @@ class ViewedBench {
   Scenario scenario_;
   std::shared_ptr<BenchProcess> simulated_;
   std::shared_ptr<OpenCamera> device_;
-  std::unique_ptr<LivePicture> live_;
+  std::shared_ptr<LivePicture> live_;  ///< shared with the thread of a camera that hangs
   std::atomic<double> last_used_ = monotonic_now();
   mutable std::mutex mutex_;  // protects trouble_
   std::string trouble_;
