@@ -193,7 +193,7 @@ py::object simulate(const py::object& scene, const py::dict& parameters, const p
   const SceneArguments a{scene, py::none(), set, duration, {estimator, reference, controller}};
   Batch batch(read_document(a), read_parameters(parameters), read_seeds(seeds), read_statistic(statistic),
               a.parts.parts(raised), raised);
-  raised->run([&] { batch.run(threads); });
+  raised->run([&] { batch.run(checked_threads(threads)); });
   return batch.values();
 }
 
@@ -220,7 +220,7 @@ py::object compare(const py::object& path, const py::dict& controllers, const py
   ResultStore results({}, study_hash(study));
   std::optional<ControllerComparison> comparison;
   SweepOptions options;
-  options.threads = threads;
+  options.threads = checked_threads(threads);
   options.stop = [&] { return raised->stopped(); };
   raised->run([&] { comparison = compare_controllers(study, results, options); });
   if (!page.is_none()) {

@@ -85,7 +85,7 @@ std::shared_ptr<PySimulation> make(const py::object& scene, const py::object& se
   const auto raised = std::make_shared<Raised>();
   Scenario s = read_scene({scene, seed, set, duration, {estimator, reference, controller}}, raised);
   std::shared_ptr<PySimulation> made;
-  raised->run([&] { made = std::make_shared<PySimulation>(std::move(s), threads, raised); });
+  raised->run([&] { made = std::make_shared<PySimulation>(std::move(s), checked_threads(threads), raised); });
   return made;
 }
 

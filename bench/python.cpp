@@ -1,0 +1,30 @@
+// The control loop in C++, for bench/python.py: SCENE FRAMES ROUNDS. Prints the shortest time of a frame, s,
+// and the state hash.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <limits>
+
+#include "app/run/simulation.h"
+#include "app/scenario/read_scenario.h"
+
+int main(int argc, char** argv) {
+  using namespace faba;
+  if (argc != 4) return 2;
+  const Scenario s = read_scenario(read_toml(argv[1]), builtin_parts());
+  const auto frames = std::strtoull(argv[2], nullptr, 10);
+  double best = std::numeric_limits<double>::infinity();
+  std::string hash;
+  for (int round = 0; round < std::atoi(argv[3]); ++round) {
+    Pool pool(1);
+    Simulation simulation(s, *s.params.seed, pool);
+    run_cycle(simulation.loop());  // places nothing, but touches all memory
+    const auto begun = std::chrono::steady_clock::now();
+    for (std::uint64_t i = 0; i < frames; ++i) run_cycle(simulation.loop());
+    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count() /
+                              double(frames));
+    hash = simulation.state_hash();
+  }
+  fmt::print("{} {}\n", best, hash);
+}
