@@ -3,9 +3,11 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "core/child.h"
 #include "core/error.h"
