@@ -197,9 +197,10 @@ py::object simulate(const py::object& scene, const py::dict& parameters, const p
   return batch.values();
 }
 
-py::object compare(const std::string& file, const py::dict& controllers, const py::object& seeds,
+py::object compare(const py::object& path, const py::dict& controllers, const py::object& seeds,
                    unsigned threads, const py::object& page) {
   const auto raised = std::make_shared<Raised>();
+  const auto file = py::str(path).cast<std::string>();
   ControllerStudy study = read_controller_study(file);
   if (!seeds.is_none()) study.seeds = seeds.cast<int>();
   // Each class is a part of its own name in the scenarios of the study.

@@ -66,9 +66,7 @@ Worlds::Worlds(Document scene, std::size_t number, unsigned threads, PolicyOutpu
       output_(output),
       parts_(builtin_parts()),
       pool_(unsigned(std::min<std::size_t>(number_of_threads(threads), number))),
-      worlds_(number) {
-  for (World& w : worlds_) w.pool = std::make_unique<Pool>(1);
-}
+      worlds_(number) {}
 
 void Worlds::begin(World& w) {
   if (!begin_cycle(w.simulation->loop(), w.cycle))
@@ -81,13 +79,12 @@ void Worlds::reset(const std::vector<std::size_t>& which, const std::vector<std:
     Document d = scene_;
     for (const auto& [path, value] : sets[k]) set_value(d, path, value);
     d.set("seed", Json(seeds[k]), "seed");
-    World& w = worlds_.at(which[k]);
-    w.simulation.reset();
+    World w;  // replaces the former one when it is complete
+    w.pool = std::make_unique<Pool>(1);
     w.scenario = std::make_unique<Scenario>(read_scenario_with(std::move(d), parts_));
     w.simulation = std::make_unique<Simulation>(*w.scenario, seeds[k], *w.pool);
-    w.finished = false;
-    w.cycle = {};
     begin(w);
+    worlds_.at(which[k]) = std::move(w);
   });
 }
 
@@ -111,15 +108,22 @@ class PyWorlds {
   PyWorlds(const py::object& scene, std::size_t number, unsigned threads, const py::object& set,
            const py::object& duration, const std::string& action, double strength)
       : worlds_(read_document({scene, py::none(), set, duration, {}}), checked(number), threads,
-                {currents(action), strength}) {}
+                {currents(action), strength}) {
+    exclusive_.threads = worlds_.pool().threads();
+  }
 
   void reset(const std::vector<std::size_t>& which, const std::vector<std::uint64_t>& seeds,
              const py::list& sets) {
+    const InUse use(exclusive_);
     if (which.size() != seeds.size() || which.size() != sets.size())
       throw Error(Errc::usage, "reset", "which, seeds and sets have different lengths");
-    for (const std::size_t i : which)
-      if (i >= worlds_.all().size())
-        throw Error(Errc::usage, "reset", fmt::format("there is no world {}", i));
+    std::vector<bool> named(worlds_.all().size());
+    for (const std::size_t i : which) {
+      if (i >= named.size() || named[i])
+        throw Error(Errc::usage, "reset",
+                    fmt::format("there is no world {}, or it is named twice; there are {}", i, named.size()));
+      named[i] = true;
+    }
     std::vector<std::vector<std::pair<std::string, Json>>> changes(sets.size());
     for (std::size_t k = 0; k < sets.size(); ++k)
       for (const auto& [path, value] : py::reinterpret_borrow<py::dict>(sets[k])) {
@@ -132,6 +136,7 @@ class PyWorlds {
   }
 
   void step(const py::array_t<double, py::array::c_style | py::array::forcecast>& actions) {
+    const InUse use(exclusive_);
     require_begun();
     const auto n = py::ssize_t(worlds_.all().size()), k = py::ssize_t(worlds_.outputs());
     if (actions.ndim() != 2 || actions.shape(0) != n || actions.shape(1) != k)
@@ -142,7 +147,8 @@ class PyWorlds {
     raised_.run([&] { worlds_.step(copy.data()); });
   }
 
-  py::array_t<float> observations() const {
+  py::array_t<float> observations() {
+    const InUse use(exclusive_);
     require_begun();
     const std::size_t n = worlds_.all().size(), k = worlds_.inputs();
     py::array_t<float> a({n, k});
@@ -155,7 +161,8 @@ class PyWorlds {
   }
 
   template <class Value>
-  py::array vectors(Value value) const {
+  py::array vectors(Value value) {
+    const InUse use(exclusive_);
     require_begun();
     py::array_t<double> a({worlds_.all().size(), std::size_t(2)});
     for (std::size_t i = 0; i < worlds_.all().size(); ++i) {
@@ -166,7 +173,8 @@ class PyWorlds {
     return a;
   }
   template <class T, class Value>
-  py::array numbers(Value value) const {
+  py::array numbers(Value value) {
+    const InUse use(exclusive_);
     require_begun();
     py::array_t<T> a(py::ssize_t(worlds_.all().size()));
     for (std::size_t i = 0; i < worlds_.all().size(); ++i) a.mutable_at(i) = T(value(worlds_.all()[i]));
@@ -174,6 +182,7 @@ class PyWorlds {
   }
 
   py::array drawing(std::size_t which) {
+    const InUse use(exclusive_);
     require_begun();
     if (which >= worlds_.all().size())
       throw Error(Errc::usage, "drawing", fmt::format("there is no world {}", which));
@@ -203,6 +212,7 @@ class PyWorlds {
     if (!begun_) throw Error(Errc::usage, "worlds", "call reset() first");
   }
 
+  Exclusive exclusive_{"Worlds"};
   Raised raised_;
   Worlds worlds_;
   bool begun_ = false;
@@ -242,39 +252,37 @@ void bind_worlds(py::module_& m) {
           "outputs", [](const PyWorlds& w) { return w.worlds().outputs(); }, "int: size of an action")
       .def("observations", &PyWorlds::observations,
            "float32 array (worlds, inputs): estimated centroid (2), setpoint (2), velocity (2), standard\n"
-           "deviations (2), 1 with visible cells, previous currents; lengths in units of half the view's height.")
+           "deviations (2), 1 with visible cells, previous currents; lengths in units of half the view's "
+           "height.")
       .def(
           "true_centroids",
-          [](const PyWorlds& w) {
+          [](PyWorlds& w) {
             return w.vectors([](const W& one) { return true_centroid(one.simulation->world().state()); });
           },
           "float array (worlds, 2): m, world frame")
       .def(
           "true_radii",
-          [](const PyWorlds& w) {
+          [](PyWorlds& w) {
             return w.numbers<double>(
                 [](const W& one) { return true_radius(one.simulation->world().state()); });
           },
           "float array (worlds,): root-mean-square distance of the cells from their centroid, m")
       .def(
           "setpoints",
-          [](const PyWorlds& w) { return w.vectors([](const W& one) { return one.cycle.target.position; }); },
+          [](PyWorlds& w) { return w.vectors([](const W& one) { return one.cycle.target.position; }); },
           "float array (worlds, 2): m, world frame")
       .def(
           "setpoint_indices",
-          [](const PyWorlds& w) {
+          [](PyWorlds& w) {
             return w.numbers<std::int64_t>([](const W& one) { return one.cycle.target.index; });
           },
           "int array (worlds,): index of the setpoint on a route")
       .def(
           "routes_finished",
-          [](const PyWorlds& w) {
-            return w.numbers<bool>([](const W& one) { return one.cycle.target.finished; });
-          },
+          [](PyWorlds& w) { return w.numbers<bool>([](const W& one) { return one.cycle.target.finished; }); },
           "bool array (worlds,): whether the end of the route is reached")
       .def(
-          "finished",
-          [](const PyWorlds& w) { return w.numbers<bool>([](const W& one) { return one.finished; }); },
+          "finished", [](PyWorlds& w) { return w.numbers<bool>([](const W& one) { return one.finished; }); },
           "bool array (worlds,): whether all frames of the scenario are simulated")
       .def_property_readonly(
           "half_height",
@@ -283,8 +291,7 @@ void bind_worlds(py::module_& m) {
       .def("drawing", &PyWorlds::drawing, py::arg("world"),
            "The schematic picture of the lab, uint8 array (height, width, 3).");
   m.def("policy_input", policy_input, py::arg("context"), py::arg("estimate"), py::arg("target"),
-        py::arg("last"),
-        "The observation of Worlds for a controller; `last`: previous currents, A.");
+        py::arg("last"), "The observation of Worlds for a controller; `last`: previous currents, A.");
 }
 
 }  // namespace faba::python
