@@ -90,7 +90,7 @@ def docstring(verb, inputs, options):
         lines += [""] + wrapped(ARRAYS[VERBS[verb["name"]]], 4, 0)
     result = f'Returns a Measurement: a dict with the members of `faba {verb["name"]} --json` (docs/formats/cli.md). '
     if verb["name"] == "track":
-        result += "For a single video its attribute `tracks` has a row for each detection. "
+        result += "For a single video without `out`, its attribute `tracks` has a row for each detection. "
     lines += [""] + wrapped(result + "Raises faba.Error.", 4, 0)
     return "\n".join(("    " + line).rstrip() for line in lines + ['"""'])
 

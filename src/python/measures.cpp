@@ -125,7 +125,7 @@ void bind_field(py::module_& m) {
           py::arg("field"), py::arg("at") = py::make_tuple(0.0, 0.0),
           "Currents, A, array (coils,), for an in-plane field of the coils, T, at a position, m: those with "
           "the\n"
-          "least sum of squares.")
+          "least sum of squares. They can be larger than max_currents.")
       .def("null", field_null, py::arg("at"), py::arg("polarity") = -1,
            "Currents for a zero of the field at a position, m, that traps cells of a polarity.\n\n"
            "Returns a dict: currents (A), gradient (eigenvalues, T/m), reachable (within the largest "

@@ -265,7 +265,7 @@ void bind_worlds(py::module_& m) {
            "Starts worlds again, each with a seed and a dict of changes of the scenario.")
       .def("step", &PyWorlds::step, py::arg("actions"),
            "One control cycle of each world; `actions`: array (worlds, size of an action).")
-      .def_property_readonly("number", &PyWorlds::number)
+      .def_property_readonly("number", &PyWorlds::number, "int: number of worlds")
       .def_property_readonly(
           "inputs", [](const PyWorlds& w) { return w.worlds().inputs(); }, "int: size of an observation")
       .def_property_readonly(

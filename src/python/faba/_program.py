@@ -37,12 +37,14 @@ _faba.set_program_folder(str(PROGRAM.parent))
 
 
 class Measurement(dict):  # type: ignore[type-arg]
-    """The result of a measurement: a dict with the members of `faba VERB --json`."""
+    """The result of a measurement: a dict with the members of `faba VERB --json`.
+
+    Its attribute `tracks` is None, or for track() of a single video without `out` a structured array with a row for each detection and
+    the columns of tracks.csv.
+    """
 
     tracks: npt.NDArray[Any] | None = None
-    """track() of a single video: structured array, a row for each detection, with the columns of tracks.csv."""
-
-    options: Mapping[str, Any] = {}
+    _options: Mapping[str, Any] = {}
 
     @property
     def quality(self) -> str:
@@ -52,7 +54,7 @@ class Measurement(dict):  # type: ignore[type-arg]
     @property
     def warnings(self) -> list[dict[str, Any]]:
         """Violated assumptions: dicts with aspect, what, evidence and advice. Options are named as the arguments in Python."""
-        return [{key: _as_arguments(text, self.options) if isinstance(text, str) else text for key, text in warning.items()}
+        return [{key: _as_arguments(text, self._options) if isinstance(text, str) else text for key, text in warning.items()}
                 for warning in self.get("warnings", [])]
 
     def __repr__(self) -> str:
@@ -128,12 +130,7 @@ def _option(name: str, value: Any) -> list[str]:
     if value is True:
         return [flag]
     values = value if isinstance(value, (list, tuple)) else [value]
-    words = [flag]
-    for one in values:
-        words.append(os.fspath(one) if isinstance(one, os.PathLike) else str(one))
-    if len(words) == 2 and words[1].startswith("-"):  # not an option: a negative number
-        return [f"{flag}={words[1]}"]
-    return words
+    return [f"{flag}={os.fspath(one) if isinstance(one, os.PathLike) else one}" for one in values]
 
 
 def call(verb: Sequence[str], inputs: Sequence[tuple[str, Any]] = (), options: Mapping[str, Any] | None = None,
@@ -194,7 +191,7 @@ def _result(code: int, out: bytes, messages: bytes, codes: Sequence[int], option
         result = {}
     if code in codes:
         measured = Measurement(_without_folder(result, folder))
-        measured.options = dict(options)
+        measured._options = dict(options)
         return measured
     stated = result.get("error", {}) if isinstance(result, dict) else {}
     last = messages.decode(errors="replace").strip().splitlines()

@@ -600,7 +600,7 @@ def track(
     `fps`.
 
     Returns a Measurement: a dict with the members of `faba track --json` (docs/formats/cli.md). For a single video
-    its attribute `tracks` has a row for each detection. Raises faba.Error.
+    without `out`, its attribute `tracks` has a row for each detection. Raises faba.Error.
     """
     return call_track(["track"], [("videos", videos)], {
         "fps": fps,
