@@ -13,6 +13,7 @@
 #include "core/monotonic.h"
 #include "rig/bench/camera_feed.h"
 #include "vision/files/frame_encoder.h"
+#include "vision/files/tiff_export.h"
 #include "vision/files/video_writer.h"
 
 namespace faba {
@@ -52,6 +53,8 @@ class VideoStore final : public Store {
  public:
   VideoStore(const CaptureJob& job, const Camera& camera, double rate)
       : Store(job.out.string() + ".csv"),
+        job_(job),
+        rate_(rate),
         out_(job.out),
         writer_(job.out.string() + ".part",
                 job.format == "mp4" ? VideoFormat::mp4 : VideoFormat::lossless_avi, camera.width(),
@@ -65,6 +68,7 @@ class VideoStore final : public Store {
       return;
     }
     Store::finish();
+    if (job_.format == "tif") return write_stack();
     writer_.finish(out_, false, [this](long long i) {
       const auto k = std::size_t(i);
       return k < at_.size() ? at_[k] : 2 * at_.back() - at_[at_.size() > 1 ? at_.size() - 2 : 0];
@@ -73,6 +77,17 @@ class VideoStore final : public Store {
 
  private:
   void write(const Gray8& picture) override { writer_.write(picture); }
+  // During the capture a stack is a lossless video, which a crash leaves readable.
+  void write_stack() {
+    writer_.sync();
+    const double duration = at_.back() - at_.front();
+    VideoReader recorded(unfinished_path(), duration > 0 ? double(at_.size() - 1) / duration : rate_);
+    export_tiff(recorded, {.out = out_, .um_per_px = job_.um_per_px});
+    std::error_code ec;
+    std::filesystem::remove(unfinished_path(), ec);
+  }
+  const CaptureJob& job_;
+  double rate_;  ///< Hz
   std::filesystem::path out_;
   VideoWriter writer_;
 };
@@ -125,7 +140,7 @@ class PictureStore final : public Store {
 std::unique_ptr<Store> store_for(const CaptureJob& job, const Camera& camera) {
   std::error_code ec;
   const bool exists = std::filesystem::exists(job.out, ec);
-  if (job.format == "mp4" || job.format == "avi") {
+  if (job.format == "mp4" || job.format == "avi" || job.format == "tif") {
     if (exists && !job.force)
       throw Error(Errc::usage, job.out.string(),
                   "already exists; choose another --out, or --force to replace it");
