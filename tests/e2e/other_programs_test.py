@@ -95,7 +95,7 @@ class TracksOfRuns(WithFolder):
             self.check(rounded, self.dir / "rounded/tracks.h5", rounded=True)
 
     def test_killed_read_and_resumed(self):
-        out, whole = self.dir / "killed", self.dir / "whole"
+        out, entire = self.dir / "killed", self.dir / "entire"
         common = ("run", scene("steer.toml"), "--seed", 3, "--duration", "120 s", "--set", "record.video=false", "--set",
                   "record.checkpoint=0.2", "--threads", 1)
         running = subprocess.Popen([PROGRAM, *map(str, common), "--quiet", "--out", out])
@@ -118,8 +118,8 @@ class TracksOfRuns(WithFolder):
             self.check(data, file, swmr=True)
         if (out / "incomplete").exists():
             faba("resume", out, "--quiet")
-        faba(*common, "--quiet", "--out", whole)
-        with xarray.open_dataset(file, engine="h5netcdf") as resumed, xarray.open_dataset(whole / "tracks.h5", engine="h5netcdf") as once:
+        faba(*common, "--quiet", "--out", entire)
+        with xarray.open_dataset(file, engine="h5netcdf") as resumed, xarray.open_dataset(entire / "tracks.h5", engine="h5netcdf") as once:
             self.check(resumed, file)
             self.assertEqual(resumed.sizes["frame"], 7200)
             xarray.testing.assert_identical(resumed, once)
@@ -172,10 +172,10 @@ class Stacks(WithFolder):
         interval = manifest["duration_s"] / frames
         datas = []
         for name in ("a.ome.tif", "a.tif"):
-            told = json.loads(faba("convert", run, self.dir / name, "--json").stdout)
-            self.assertEqual((told["frames"], told["um_per_px"]), (frames, um))
-            self.assertAlmostEqual(told["frame_s"], interval, delta=1e-9)
-            datas.append(self.check_stack(self.dir / name, frames, um, told["frame_s"], (frames, height, width)))
+            given = json.loads(faba("convert", run, self.dir / name, "--json").stdout)
+            self.assertEqual((given["frames"], given["um_per_px"]), (frames, um))
+            self.assertAlmostEqual(given["frame_s"], interval, delta=1e-9)
+            datas.append(self.check_stack(self.dir / name, frames, um, given["frame_s"], (frames, height, width)))
             # and Faba reads its own file
             again = json.loads(faba("convert", self.dir / name, self.dir / f"again-{name}", "--json").stdout)
             self.assertEqual((again["um_per_px_source"], again["frames"]), ("metadata", frames))
@@ -198,8 +198,8 @@ class Stacks(WithFolder):
         faba("run", scene("steer.toml"), "--seed", 1, "--duration", "0.1 s", "--out", self.dir / "drawn")
         frames = json.loads((self.dir / "drawn/manifest.json").read_text())["frames"]
         for name in ("drawn.ome.tif", "drawn.tif"):
-            told = json.loads(faba("convert", self.dir / "drawn", self.dir / name, "--json").stdout)
-            self.check_stack(self.dir / name, frames, told["um_per_px"], told["frame_s"], (frames, 480, 640, 3))
+            given = json.loads(faba("convert", self.dir / "drawn", self.dir / name, "--json").stdout)
+            self.check_stack(self.dir / name, frames, given["um_per_px"], given["frame_s"], (frames, 480, 640, 3))
         tifffile.imwrite(self.dir / "one.tif", numpy.full((8, 9), 3, numpy.uint8))
         for name in ("one-again.ome.tif", "one-again.tif"):
             done = faba("convert", self.dir / "one.tif", self.dir / name, "--um-per-px", 0.5)
@@ -251,10 +251,10 @@ class TrackTables(WithFolder):
     def test_every_format_has_the_same_tracks(self):
         names = {"csv": "a.csv", "hdf5": "a.h5", "trackmate": "t.csv", "napari": "n.csv"}
         options = [o for f, n in names.items() for o in ("--out", self.dir / n, "--format", f)]
-        told = json.loads(faba(*self.film, "--um-per-px", 0.5, "--json", *options).stdout)
-        self.assertEqual([t["format"] for t in told["tables"]], list(names))
-        self.assertEqual([t["length_unit"] for t in told["tables"]], ["px", "px", "um", "px"])
-        self.assertEqual(told["tables"][3]["scale"], [1, 0.5, 0.5])
+        given = json.loads(faba(*self.film, "--um-per-px", 0.5, "--json", *options).stdout)
+        self.assertEqual([t["format"] for t in given["tables"]], list(names))
+        self.assertEqual([t["length_unit"] for t in given["tables"]], ["px", "px", "um", "px"])
+        self.assertEqual(given["tables"][3]["scale"], [1, 0.5, 0.5])
         header, own = self.rows(self.dir / "a.csv")
         self.assertEqual(header, "track,frame,t_s,x_px,y_px,mass,snr\n")
         self.assertGreater(len(own), 60)

@@ -13,6 +13,7 @@
 #include "core/monotonic.h"
 #include "rig/bench/camera_feed.h"
 #include "vision/files/frame_encoder.h"
+#include "vision/files/frame_interval.h"
 #include "vision/files/tiff_export.h"
 #include "vision/files/video_writer.h"
 
@@ -80,8 +81,8 @@ class VideoStore final : public Store {
   // During the capture a stack is a lossless video, which a crash leaves readable.
   void write_stack() {
     writer_.sync();
-    const double duration = at_.back() - at_.front();
-    VideoReader recorded(unfinished_path(), duration > 0 ? double(at_.size() - 1) / duration : rate_);
+    const std::optional<FrameInterval> interval = frame_interval(at_);
+    VideoReader recorded(unfinished_path(), interval ? 1 / interval->s : rate_);
     export_tiff(recorded, {.out = out_, .um_per_px = job_.um_per_px});
     std::error_code ec;
     std::filesystem::remove(unfinished_path(), ec);
@@ -191,6 +192,12 @@ void report_progress(const CaptureJob& job, const Captured& result) {
 }
 
 }  // namespace
+
+std::string capture_format(const std::filesystem::path& out) {
+  if (tiff_kind(out)) return "tif";
+  const std::string extension = out.extension().string();
+  return extension == ".mp4" ? "mp4" : extension == ".avi" ? "avi" : "";
+}
 
 Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job) {
   const std::unique_ptr<Store> store = store_for(job, *camera);

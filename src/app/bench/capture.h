@@ -40,6 +40,9 @@ struct CaptureJob {
   const std::atomic<bool>* stop = nullptr;
 };
 
+/// The format of a capture into a single file, by its name; empty if it is the name of a folder of pictures.
+std::string capture_format(const std::filesystem::path& out);
+
 /// Captures until a limit is reached, the camera has no more frames, or `stop` is set. The times of the
 /// frames are written to `out` + ".csv" for a video or stack and to times.csv for pictures. The recorded
 /// frames are kept in any case. During the capture a video or stack has the name `out` + ".part", and a

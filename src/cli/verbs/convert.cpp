@@ -10,10 +10,7 @@
 #include "cli/progress.h"
 #include "cli/provenance.h"
 #include "core/counted.h"
-#include "core/error.h"
-#include "core/threads/ordered_work.h"
-#include "study/data/run_video.h"
-#include "vision/files/tiff_export.h"
+#include "study/data/tiff_conversion.h"
 
 namespace faba::cli {
 namespace {
@@ -34,69 +31,53 @@ const char* word_of(TiffPixels pixels) {
                                         : "grey, 32-bit floats";
 }
 
-std::vector<std::string> notes_of(const RunVideo& source, const TiffExported& done, bool ome) {
-  std::vector<std::string> notes;
-  if (!source.scale.ignored.empty()) notes.push_back(source.scale.ignored);
-  if (!source.scale.um_per_px)
-    notes.emplace_back("the scale is not known, so the file states none; give it with --um-per-px");
-  if (!done.frame_s)
-    notes.emplace_back(
-        "the frame rate is not known, so the file states no frame interval; give it with --fps");
-  if (!done.regular)
-    notes.emplace_back("the frames are not at equal times; the file states the mean frame interval");
-  if (done.big && !ome)
-    notes.emplace_back(
-        "the file exceeds 4 GB and is a BigTIFF, which ImageJ reads with Bio-Formats; for a smaller file, "
-        "select "
-        "a part with --from and --to");
-  if (!done.damage.empty()) notes.push_back("damaged frames are missing: " + done.damage);
-  return notes;
+void print_result(const ConvertedTiff& done, const ConvertVerb& v) {
+  for (const std::string& note : done.notes)
+    print_stderr(fmt::format("faba: note: {}: {}", v.video.string(), note));
+  const TiffExported& stack = done.stack;
+  fmt::print("wrote    {}: {}, {}{}{}\n", v.out.string(), counted(stack.frames, "frame"),
+             word_of(stack.pixels),
+             done.scale.um_per_px ? fmt::format(", {:.6g} um/px", *done.scale.um_per_px) : "",
+             stack.frame_s ? fmt::format(", every {:.6g} s", *stack.frame_s) : "");
+}
+
+Json result_json(const ConvertedTiff& done, const ConvertVerb& v) {
+  const auto or_null = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
+  const TiffPixels pixels = done.stack.pixels;
+  return {{"out", v.out.string()},
+          {"metadata", done.kind == TiffKind::ome ? "ome" : "imagej"},
+          {"frames", done.stack.frames},
+          {"image_size", {done.width, done.height}},
+          {"bits", pixels == TiffPixels::grey16       ? 16
+                   : pixels == TiffPixels::grey_float ? 32
+                                                      : 8},
+          {"colour", pixels == TiffPixels::colour},
+          {"um_per_px", or_null(done.scale.um_per_px)},
+          {"um_per_px_source", done.scale.source.empty() ? Json() : Json(done.scale.source)},
+          {"frame_s", or_null(done.stack.frame_s)},
+          {"big_tiff", done.stack.big},
+          {"notes", done.notes}};
 }
 
 int convert(const ConvertVerb& v, const Common& c) {
   check_output(v.out, {".tif", ".tiff"}, v.force, {v.video});
-  RunVideo source = video_or_drawing(v.video);
+  TiffConversion job{v.video, v.out, {}, v.part.part(v.fps), v.threads, {}};
   if (!v.scale.empty()) {
     const Calibration given = parse_calibration(v.scale, "--um-per-px");
-    source.scale = {given.um_per_px, given.typed() ? "typed" : "calibration", ""};
+    job.scale = {given.um_per_px, given.typed() ? "typed" : "calibration", ""};
   }
-  const VideoPart part = v.part.part(v.fps);
-  VideoReader video(source.file, part.fps, OrderedWork::threads(v.threads));
   Progress bar("converting", !c.quiet && !c.json);
   const auto& stop = stop_requested();
-  const auto progress = [&](std::int64_t done, std::int64_t total) {
+  job.progress = [&](std::int64_t done, std::int64_t total) {
     bar.update(std::uint64_t(done), std::uint64_t(total));
     return !stop;
   };
-  const TiffExported done =
-      export_tiff(video, {v.out, source.scale.um_per_px, part.from_s, part.to_s, source.drawing, progress});
+  const ConvertedTiff done = convert_to_tiff(job);
   bar.clear();
-  const bool ome = tiff_kind(v.out) == TiffKind::ome;
-  const std::vector<std::string> notes = notes_of(source, done, ome);
-  if (c.json) {
-    const auto or_null = [](const std::optional<double>& value) { return value ? Json(*value) : Json(); };
-    print_json({{"out", v.out.string()},
-                {"metadata", ome ? "ome" : "imagej"},
-                {"frames", done.frames},
-                {"image_size", {video.width(), video.height()}},
-                {"bits", done.pixels == TiffPixels::grey16       ? 16
-                         : done.pixels == TiffPixels::grey_float ? 32
-                                                                 : 8},
-                {"colour", done.pixels == TiffPixels::colour},
-                {"um_per_px", or_null(source.scale.um_per_px)},
-                {"um_per_px_source", source.scale.source.empty() ? Json() : Json(source.scale.source)},
-                {"frame_s", or_null(done.frame_s)},
-                {"big_tiff", done.big},
-                {"notes", notes}},
-               provenance_of(c, {v.video}));
-    return 0;
-  }
-  if (c.quiet) return 0;
-  for (const std::string& note : notes)
-    print_stderr(fmt::format("faba: note: {}: {}", v.video.string(), note));
-  fmt::print("wrote    {}: {}, {}{}{}\n", v.out.string(), counted(done.frames, "frame"), word_of(done.pixels),
-             source.scale.um_per_px ? fmt::format(", {:.6g} um/px", *source.scale.um_per_px) : "",
-             done.frame_s ? fmt::format(", every {:.6g} s", *done.frame_s) : "");
+  if (c.json)
+    print_json(result_json(done, v), provenance_of(c, {v.video}));
+  else if (!c.quiet)
+    print_result(done, v);
   return 0;
 }
 

@@ -1,14 +1,17 @@
 #include "core/h5/h5.h"
 
 #include <fmt/format.h>
+#include <hdf5.h>
+#include <hdf5_hl.h>
 
 #include <algorithm>
 #include <mutex>
 #include <type_traits>
+#include <utility>
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/h5/h5_impl.h"
+#include "core/h5/chunk_rows.h"
 
 namespace faba {
 namespace {
@@ -16,6 +19,7 @@ namespace {
 // Cache of decoded chunks for readers, per table: a row of chunks of every file that this program writes
 // fits.
 constexpr std::size_t kCacheBytes = 64u << 20, kCacheSlots = 12421;
+constexpr hsize_t kColumnChunk = 1 << 16;  // values
 
 template <class T>
 hid_t type_of() {
@@ -27,10 +31,7 @@ hid_t type_of() {
   if constexpr (std::is_same_v<T, std::uint64_t>) return H5T_NATIVE_UINT64;
 }
 
-}  // namespace
-
-namespace h5 {
-
+// The innermost message of HDF5's error stack: "... No space left on device ..."
 std::string reason() {
   std::string text;
   H5Ewalk2(
@@ -47,6 +48,27 @@ std::string reason() {
   return text.empty() ? "unknown HDF5 error" : text;
 }
 
+/// A handle closed by the function that belongs to it.
+class Handle {
+ public:
+  Handle() = default;
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  Handle(Handle&& o) noexcept : id_(std::exchange(o.id_, -1)), close_(o.close_) {}
+  Handle& operator=(Handle&& o) noexcept {
+    std::swap(id_, o.id_);
+    std::swap(close_, o.close_);
+    return *this;
+  }
+  ~Handle() { release(); }
+  bool release() { return id_ < 0 || close_(std::exchange(id_, -1)) >= 0; }
+  operator hid_t() const { return id_; }  // NOLINT: used as the id in calls of the C library
+
+ private:
+  hid_t id_ = -1;
+  herr_t (*close_)(hid_t) = nullptr;
+};
+
+// Turns off the error messages that HDF5 prints itself; the setting is per thread.
 void quiet() {
   thread_local bool done = false;
   if (std::exchange(done, true)) return;
@@ -58,9 +80,41 @@ void quiet() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-}  // namespace h5
+}  // namespace
 
-using namespace h5;
+struct H5Table::Impl {
+  Handle set;
+  hid_t type = -1;
+  std::vector<hsize_t> dims, chunk;  ///< rows first
+  std::string where;
+
+  std::size_t element_bytes = 0;
+  std::unique_ptr<ChunkRows> writing;  ///< of a table that is being written
+
+  std::size_t row_size() const {
+    std::size_t n = 1;
+    for (std::size_t i = 1; i < dims.size(); ++i) n *= std::size_t(dims[i]);
+    return n;
+  }
+  std::size_t row_bytes() const { return row_size() * element_bytes; }
+  [[noreturn]] void fail(Errc code, const char* doing) const {
+    throw Error(code, where, fmt::format("cannot {}: {}", doing, reason()));
+  }
+  /// Selection of one row, in memory and in the file.
+  struct Row {
+    Handle memory, in_file;
+  };
+  Row select(std::uint64_t row) const {
+    std::vector<hsize_t> start(dims.size(), 0), count = dims;
+    start[0] = row;
+    count[0] = 1;
+    Handle in_file(H5Dget_space(set), H5Sclose);
+    H5Sselect_hyperslab(in_file, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
+    return {Handle(H5Screate_simple(int(count.size()), count.data(), nullptr), H5Sclose), std::move(in_file)};
+  }
+  void write(std::uint64_t first, std::uint64_t rows, const std::vector<CodedChunk>& chunks);
+  void start_writing(const ChunkFilters& filters, unsigned threads);
+};
 
 void H5Table::Impl::write(std::uint64_t first, std::uint64_t rows, const std::vector<CodedChunk>& chunks) {
   std::vector<hsize_t> extent = dims, at(dims.size(), 0);
@@ -85,6 +139,16 @@ void H5Table::Impl::start_writing(const ChunkFilters& filters, unsigned threads)
         write(first, rows, chunks);
       });
 }
+
+struct H5File::Impl {
+  Handle file;
+  std::filesystem::path path;
+  unsigned threads = 1;                                ///< that encode
+  std::vector<std::shared_ptr<H5Table::Impl>> tables;  ///< that are being written
+  [[noreturn]] void fail(Errc code, const char* doing) const {
+    throw Error(code, path.string(), fmt::format("cannot {}: {}", doing, reason()));
+  }
+};
 
 template <class T>
 void H5Table::append(std::span<const T> row) {
@@ -212,6 +276,83 @@ bool H5File::has(const std::string& name) const {
   return H5Lexists(impl_->file, name.c_str(), H5P_DEFAULT) > 0;
 }
 
+template <class T>
+void H5File::column(const std::string& name, const std::vector<T>& values) {
+  const hsize_t size = values.size();
+  const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation, false);
+  const Handle type(H5Tcopy(std::is_same_v<T, std::string> ? H5T_C_S1 : H5T_NATIVE_UINT32), H5Tclose);
+  std::vector<const char*> texts;
+  const void* data = values.data();
+  if constexpr (std::is_same_v<T, std::string>) {
+    H5Tset_size(type, H5T_VARIABLE);
+    H5Tset_cset(type, H5T_CSET_UTF8);
+    for (const std::string& text : values) texts.push_back(text.c_str());
+    data = texts.data();
+  } else if (size > 0) {
+    const hsize_t chunk = std::min<hsize_t>(size, kColumnChunk);
+    H5Pset_chunk(creation, 1, &chunk);
+    H5Pset_shuffle(creation);
+    H5Pset_deflate(creation, 1);
+    H5Pset_fletcher32(creation);
+  }
+  const Handle set(H5Dcreate2(impl_->file, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
+                   H5Dclose);
+  if (set < 0 || H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0)
+    impl_->fail(Errc::internal, "write");
+}
+
+void H5File::name_dimensions(const std::string& table, const std::vector<std::string>& scales) {
+  const Handle set(H5Dopen2(impl_->file, table.c_str(), H5P_DEFAULT), H5Dclose);
+  for (unsigned i = 0; i < scales.size(); ++i) {
+    const Handle scale(H5Dopen2(impl_->file, scales[i].c_str(), H5P_DEFAULT), H5Dclose);
+    if (H5DSis_scale(scale) == 0 && H5DSset_scale(scale, scales[i].c_str()) < 0)
+      impl_->fail(Errc::internal, "write");
+    if (H5DSattach_scale(set, scale, i) < 0) impl_->fail(Errc::internal, "write");
+  }
+}
+
+void H5File::attribute(const std::string& object, const std::string& name, double value) {
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle a(H5Acreate_by_name(impl_->file, object.c_str(), name.c_str(), H5T_NATIVE_DOUBLE, space,
+                                   H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                 H5Aclose);
+  if (a < 0 || H5Awrite(a, H5T_NATIVE_DOUBLE, &value) < 0) impl_->fail(Errc::internal, "write");
+}
+
+void H5File::attribute(const std::string& object, const std::string& name, const std::string& value) {
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose), type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type, std::max<std::size_t>(1, value.size()));
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  H5Tset_strpad(type, H5T_STR_NULLPAD);
+  const Handle a(H5Acreate_by_name(impl_->file, object.c_str(), name.c_str(), type, space, H5P_DEFAULT,
+                                   H5P_DEFAULT, H5P_DEFAULT),
+                 H5Aclose);
+  if (a < 0 || H5Awrite(a, type, value.c_str()) < 0) impl_->fail(Errc::internal, "write");
+}
+
+double H5File::number_attribute(const std::string& object, const std::string& name) const {
+  const Handle a(H5Aopen_by_name(impl_->file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                 H5Aclose);
+  double value = 0;
+  if (a < 0 || H5Aread(a, H5T_NATIVE_DOUBLE, &value) < 0)
+    throw Error(Errc::input, impl_->path.string(), fmt::format("numeric attribute \"{}\" not found", name));
+  return value;
+}
+
+std::string H5File::text_attribute(const std::string& object, const std::string& name) const {
+  const Handle a(H5Aopen_by_name(impl_->file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                 H5Aclose);
+  if (a >= 0) {
+    const Handle type(H5Aget_type(a), H5Tclose);
+    std::string value(H5Tget_class(type) == H5T_STRING && !H5Tis_variable_str(type) ? H5Tget_size(type) : 0,
+                      '\0');
+    if (!value.empty() && H5Aread(a, type, value.data()) >= 0) return value.substr(0, value.find('\0'));
+  }
+  throw Error(Errc::input, impl_->path.string(), fmt::format("string attribute \"{}\" not found", name));
+}
+
 void H5File::begin_writing() {
   if (H5Fstart_swmr_write(impl_->file) < 0) impl_->fail(Errc::internal, "start writing");
 }
@@ -251,5 +392,7 @@ FABA_H5_TYPE(std::int16_t)
 FABA_H5_TYPE(std::int32_t)
 FABA_H5_TYPE(std::uint64_t)
 #undef FABA_H5_TYPE
+template void H5File::column<std::uint32_t>(const std::string&, const std::vector<std::uint32_t>&);
+template void H5File::column<std::string>(const std::string&, const std::vector<std::string>&);
 
 }  // namespace faba

@@ -5,9 +5,10 @@
 
 #include "core/error.h"
 #include "core/table.h"
+#include "vision/files/frame_interval.h"
 #include "vision/files/input_file.h"
 #include "vision/files/picture_sequence.h"
-#include "vision/files/tiff_stack.h"
+#include "vision/files/tiff/tiff_stack.h"
 
 namespace faba {
 
@@ -20,8 +21,8 @@ double captured_rate(const std::filesystem::path& folder) try {
   if (!std::filesystem::is_regular_file(file, ignored)) return 0;
   const Table times = read_table(file, LastLine::drop);
   const auto t = times.find("t_s");
-  if (!times.has("camera_frame") || t.size() < 2 || !(t.back() > t.front())) return 0;
-  return double(t.size() - 1) / (t.back() - t.front());
+  const auto interval = times.has("camera_frame") ? frame_interval(t) : std::nullopt;
+  return interval ? 1 / interval->s : 0;
 } catch (const Error&) {  // a table of another program
   return 0;
 }

@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-#include "vision/files/tiff_description.h"
+#include "vision/files/tiff/tiff_description.h"
 
 namespace faba {
 

@@ -2,43 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/error.h"
+#include "vision/files/frame_interval.h"
 
 namespace faba {
 namespace {
 
 constexpr double kSameRate = 1e-3;  // relative difference of frame rates that rounded time stamps explain
-constexpr double kRegular = 0.2;    // relative to the mean, range of the intervals of a regular video
-
-/// Times of the frames so far.
-class Intervals {
- public:
-  void add(double t_s) {
-    if (count_++ == 0) first_ = t_s;
-    if (count_ > 1) {
-      shortest_ = std::min(shortest_, t_s - last_);
-      longest_ = std::max(longest_, t_s - last_);
-    }
-    last_ = t_s;
-  }
-  // The mean, or that of the stated rate if it is the same; `fps` 0: times are numbers of frames.
-  std::optional<double> mean(double fps) const {
-    if (!(fps > 0)) return std::nullopt;
-    const double mean = count_ > 1 ? (last_ - first_) / double(count_ - 1) : 0;
-    return mean > 0 && std::fabs(mean * fps - 1) > kSameRate ? mean : 1 / fps;
-  }
-  bool regular() const {
-    return count_ < 3 || (longest_ - shortest_) * double(count_ - 1) <= kRegular * (last_ - first_);
-  }
-
- private:
-  std::uint64_t count_ = 0;
-  double first_ = 0, last_ = 0, shortest_ = std::numeric_limits<double>::infinity(), longest_ = 0;
-};
 
 TiffPixels pixels_of(int bits, bool colour) {
   if (colour) return TiffPixels::colour;
@@ -98,14 +72,14 @@ TiffExported export_tiff(VideoReader& video, const TiffExport& job) {
   TiffExported done;
   done.pixels = pixels_of(video.bits(), job.colour);
   Pages pages(video, job, done.pixels);
-  Intervals intervals;
+  std::vector<double> times;
   std::int64_t read = job.from_s > 0 ? video.skip_to(job.from_s) : 0;
   for (double t_s = 0;; ++read) {
     if (job.progress && !job.progress(read, video.frames_in_header()))
       throw Error(Errc::interrupted, job.out.string(), "stopped before the end; no file was written");
     if (!pages.read(t_s) || (job.to_s && t_s > *job.to_s)) break;
     if (t_s < job.from_s) continue;
-    intervals.add(t_s);
+    times.push_back(t_s);
     pages.write();
   }
   done.frames = pages.writer().pages();
@@ -113,8 +87,12 @@ TiffExported export_tiff(VideoReader& video, const TiffExport& job) {
     throw Error(Errc::input, job.out.string(),
                 fmt::format("the video has no frames after {:g} s{}; change --from and --to", job.from_s,
                             job.to_s ? fmt::format(" and before {:g} s", *job.to_s) : ""));
-  done.frame_s = intervals.mean(video.fps());
-  done.regular = intervals.regular();
+  const std::optional<FrameInterval> measured = frame_interval(times);
+  done.regular = !measured || measured->regular;
+  if (const double fps = video.fps(); fps > 0) {  // else times are numbers of frames
+    const bool other = measured && std::fabs(measured->s * fps - 1) > kSameRate;
+    done.frame_s = other ? measured->s : 1 / fps;
+  }
   done.damage = video.damage();
   done.big =
       pages.writer().finish(tiff_kind(job.out).value_or(TiffKind::imagej), {job.um_per_px, done.frame_s});

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "vision/files/tiff_writer.h"
+#include "vision/files/tiff/tiff_writer.h"
 #include "vision/files/video_reader.h"
 
 namespace faba {
@@ -26,7 +26,7 @@ struct TiffExport {
 struct TiffExported {
   std::uint64_t frames = 0;
   TiffPixels pixels = TiffPixels::grey8;
-  std::optional<double> frame_s;  ///< mean time between frames; empty: the video states no times
+  std::optional<double> frame_s;  ///< see FrameInterval; empty: the video states no times
   bool regular = true;            ///< frames are at equal times
   bool big = false;               ///< a BigTIFF, because it exceeds 4 GB
   std::string damage;             ///< of the video, whose damaged frames are missing; empty: none

@@ -9,7 +9,6 @@
 #include "cli/progress.h"
 #include "cli/quantity.h"
 #include "core/error.h"
-#include "vision/files/tiff_writer.h"
 
 namespace faba::cli {
 namespace {
@@ -21,13 +20,6 @@ struct CaptureVerb {
   std::uint64_t frames = 0, one_of = 1;
   bool buffered = false, only_corrupt = false;
 };
-
-// Format for the name of a single file; empty: a folder of pictures.
-std::string format_of_video(const std::filesystem::path& out) {
-  if (tiff_kind(out)) return "tif";
-  const std::string extension = out.extension().string();
-  return extension == ".mp4" ? "mp4" : extension == ".avi" ? "avi" : "";
-}
 
 int rig_capture(const CaptureVerb& v, const Common& c) {
   Scenario s = read_bench_scene(v.run);
@@ -47,7 +39,7 @@ int rig_capture(const CaptureVerb& v, const Common& c) {
   if (v.time) job.time = time_option(*v.time, "--for");
   if (v.every) job.every = time_option(*v.every, "--every");
   job.um_per_px = s.scale.um_per_px;
-  const std::string extension = job.out.extension().string(), video = format_of_video(job.out);
+  const std::string extension = job.out.extension().string(), video = capture_format(job.out);
   job.format = !v.format.empty() ? v.format : !video.empty() ? video : "png";
   if (!v.format.empty() && !video.empty())
     throw Error(Errc::usage, "--format", "is for pictures in a folder, but --out is a video or TIFF stack");

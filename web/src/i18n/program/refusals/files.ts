@@ -157,8 +157,8 @@ export const files: Record<string, string> = {
   'the scale is not known, so the file states none; give it with --um-per-px': 'a escala não é conhecida, por isso o arquivo não a informa; informe-a com --um-per-px',
   'the frame rate is not known, so the file states no frame interval; give it with --fps':
     'a taxa de quadros não é conhecida, por isso o arquivo não informa o intervalo entre quadros; informe-a com --fps',
-  'the frames are not at equal times; the file states the mean frame interval':
-    'os quadros não estão em tempos iguais; o arquivo informa o intervalo médio entre quadros',
+  'the frames are not at equal times; the file states their mean interval without gaps':
+    'os quadros não estão em tempos iguais; o arquivo informa o seu intervalo médio sem as lacunas',
   'the file exceeds 4 GB and is a BigTIFF, which ImageJ reads with Bio-Formats; for a smaller file, select a part with --from and --to':
     'o arquivo excede 4 GB e é um BigTIFF, que o ImageJ lê com o Bio-Formats; para um arquivo menor, selecione uma parte com --from e --to',
   'damaged frames are missing: {}': 'faltam quadros danificados: {}',

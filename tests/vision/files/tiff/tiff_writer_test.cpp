@@ -1,14 +1,17 @@
-#include "vision/files/tiff_writer.h"
+#include "vision/files/tiff/tiff_writer.h"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
 
 #include "core/error.h"
 #include "tests/vision/media.h"
-#include "vision/files/input_file.h"
+#include "vision/files/frame_interval.h"
+#include "vision/files/tiff/tiff_stack.h"
 #include "vision/files/tiff_export.h"
-#include "vision/files/tiff_stack.h"
 #include "vision/files/video_reader.h"
 #include "vision/files/video_writer.h"
 
@@ -130,24 +133,41 @@ TEST_CASE("export of a video: part, interval, values out of range, and interrupt
     for (int k = 0; k < 25; ++k) writer.write(Gray8(20, 10, std::uint8_t(k)));
     writer.finish(f / "v.avi");
   }
-  const auto exported = [&](TiffExport job, double fps = 0) {
-    job.out = f / "out.tif";
+  const auto exported = [&](double from_s, std::optional<double> to_s, double fps = 0,
+                            std::int64_t stop = 99) {
     VideoReader video(f / "v.avi", fps);
-    return export_tiff(video, job);
+    return export_tiff(video, {.out = f / "out.tif",
+                               .um_per_px = 2,
+                               .from_s = from_s,
+                               .to_s = to_s,
+                               .progress = [&](std::int64_t done, std::int64_t) { return done < stop; }});
   };
-  const TiffExported all = exported({.um_per_px = 2});
+  CHECK(exported(0.8, 1.2).frames == 6);
+  CHECK(pages_of(f / "out.tif")[0].px[0] == 10);
+  CHECK(*exported(0, {}, 100).frame_s == doctest::Approx(0.01));
+  const TiffExported all = exported(0, {});
   CHECK(all.frames == 25);
   CHECK(all.regular);
   CHECK(*all.frame_s == doctest::Approx(0.08).epsilon(1e-9));
   CHECK(TiffStack(f / "out.tif").fps() == doctest::Approx(12.5));
   CHECK(pages_of(f / "out.tif")[24].px[7] == 24);
 
-  CHECK(exported({.from_s = 0.8, .to_s = 1.2}).frames == 6);
-  CHECK(pages_of(f / "out.tif")[0].px[0] == 10);
-  CHECK(*exported({}, 100).frame_s == doctest::Approx(0.01));
-
-  CHECK_THROWS_WITH_AS(exported({.from_s = 50}), doctest::Contains("change --from and --to"), Error);
-  CHECK_THROWS_AS(exported({.progress = [](std::int64_t done, std::int64_t) { return done < 3; }}), Error);
+  CHECK_THROWS_WITH_AS(exported(50, {}), doctest::Contains("change --from and --to"), Error);
+  CHECK_THROWS_AS(exported(0, {}, 0, 3), Error);
   CHECK_FALSE(std::filesystem::exists(f / "out.tif.tmp"));
   CHECK(pages_of(f / "out.tif").size() == 25);  // the earlier file is kept
+}
+
+TEST_CASE("frame interval: gaps are left out, rounding does not bias it") {
+  CHECK_FALSE(frame_interval(std::vector<double>{}));
+  CHECK_FALSE(frame_interval(std::vector<double>{3}));
+  CHECK_FALSE(frame_interval(std::vector<double>{3, 3, 3}));
+  CHECK_FALSE(frame_interval(std::vector<double>{3, 2, 1}));
+  const auto gap = frame_interval(std::vector<double>{0, 0.1, 0.2, 0.5, 0.6, 0.7});
+  CHECK(gap->s == doctest::Approx(0.1));
+  CHECK_FALSE(gap->regular);
+  std::vector<double> rounded;
+  for (int k = 0; k < 300; ++k) rounded.push_back(std::round(1000 * k / 29.97) / 1000);
+  CHECK(frame_interval(rounded)->s == doctest::Approx(1 / 29.97).epsilon(1e-4));
+  CHECK(frame_interval(rounded)->regular);
 }

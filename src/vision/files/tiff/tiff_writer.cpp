@@ -1,4 +1,4 @@
-#include "vision/files/tiff_writer.h"
+#include "vision/files/tiff/tiff_writer.h"
 
 #include <fmt/format.h>
 
