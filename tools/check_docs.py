@@ -26,6 +26,7 @@ import sys
 import tempfile
 
 import make_docs
+import python_verbs
 
 MOST_LINES = 400
 SKIPPED = {"build", "runs", ".git", "node_modules"}
@@ -65,6 +66,9 @@ class Checks:
         page = self.root / make_docs.COLUMNS_PAGE
         if page in self.text and make_docs.with_columns(self.program, self.text[page]) != self.text[page]:
             self.fail(page, "the table of columns differs from the descriptions in the program; run: tools/make_docs.py")
+        functions = self.root / python_verbs.FILE
+        if functions.exists() and functions.read_text() != python_verbs.module(self.program):
+            self.fail(functions, "differs from the verbs of the program; run: tools/make_docs.py")
 
     def verbs(self, folder):
         page = self.root / "docs/formats/cli.md"

@@ -28,6 +28,7 @@ MAY = {
     "study": "core field vision sim control rig app",
     "server": "core app study",
     "cli": "core app study server",
+    "python": "core field vision sim control app study",
     "guard": "core rig",
 }
 # Subfolders and the sibling subfolders that each may include; "." is the folder itself. In folders that are not listed,
@@ -108,6 +109,7 @@ HOME = {
     "libdeflate": {"core"},
     "toml++": {"core"},
     "CLI/": {"cli"},
+    "pybind11/": {"python"},
     "lemon/": {"vision"},
     "Eigen/": {"vision", "study", "field"},
     "unsupported/Eigen/": {"study"},
@@ -128,7 +130,7 @@ SYSTEM = re.compile(
     r"[a-z_0-9]+|sys/\w+\.h|(dlfcn|errno|fcntl|immintrin|malloc|poll|pty|sched|signal|spawn|std\w+|termios|time|unistd)\.h"
 )
 # Folders with a unity build (CMakeLists.txt: FABA_UNITY), and their files that are compiled separately.
-UNITY = {"field", "vision", "sim", "control", "rig", "app", "study", "server", "cli"}
+UNITY = {"field", "vision", "sim", "control", "rig", "app", "study", "server", "cli", "python"}
 ALONE = {"sim/agents/adapted.cpp", "sim/agents/basic.cpp", "sim/agents/dipole.cpp", "field/uniform.cpp", "app/parts.cpp"}
 SOURCES = (".h", ".cpp", ".c")
 MOST_FILES = 40

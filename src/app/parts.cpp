@@ -75,12 +75,19 @@ FABA_COIL_DRIVERS(FABA_DECLARE)
 #if defined FABA_PARTS_OF_PROGRAM
 
 namespace {
+constexpr const char* kPythonPart =
+    "this part is a class in Python, which the program does not have; use the Python package, for example "
+    "faba.resume(DIRECTORY) or faba.replay(DIRECTORY)";
+
 Parts all_parts() {
   Parts p;
   FABA_ENGINE_PARTS(FABA_ADD)
   p.flow = builtin_flow_methods();
   FABA_PROGRAM_PARTS(FABA_ADD)
   FABA_COIL_DRIVERS(FABA_ADD)
+  p.estimator.elsewhere("python", kPythonPart);
+  p.reference.elsewhere("python", kPythonPart);
+  p.controller.elsewhere("python", kPythonPart);
   p.readers.table = [](const std::filesystem::path& file) { return read_field_points(file); };
   p.readers.library = open_library;
   p.readers.library_task = library_task;

@@ -13,11 +13,21 @@
 #include "cli/command_line.h"
 #include "cli/usage_message.h"
 #include "core/schema.h"
+#include "core/toml.h"
 
 namespace faba::cli {
 namespace {
 
 void print_error(const std::string& text) { print_stderr("faba: error: " + text); }
+
+// With --json also the parts of the error, for programs.
+void print_error(const Error& e, bool json) {
+  print_error(e.what());
+  if (json)
+    fmt::print("{}\n",
+               Json{{"error", {{"code", int(e.code())}, {"where", e.where()}, {"what", e.reason()}}}}.dump(
+                   -1, ' ', false, Json::error_handler_t::replace));
+}
 
 // The message of CLI11 would be that a verb is missing.
 void check_verb(const CLI::App& app, const std::string& word) {
@@ -85,13 +95,15 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is reported as a write error
   std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is reported as a write error
   faba::cli::keep_freed_memory();
+  const bool json =
+      std::any_of(argv + 1, argv + argc, [](const char* word) { return std::string("--json") == word; });
   try {
     const int code = faba::cli::dispatch(argc, argv);
     if (std::fflush(stdout) != 0)
       throw faba::Error(faba::Errc::internal, "standard output", "cannot be written");
     return code;
   } catch (const faba::Error& e) {
-    faba::cli::print_error(e.what());
+    faba::cli::print_error(e, json);
     return int(e.code());
   } catch (const std::bad_alloc&) {
     faba::cli::print_error("out of memory; reduce the number of cells, the arena or the duration");

@@ -8,6 +8,7 @@
 #include "core/child.h"
 #include "core/error.h"
 #include "study/pages/quality_output.h"
+#include "study/pages/reported_run.h"
 #include "study/pages/run_report.h"
 #include "study/plot/markup.h"
 #include "study/quality/scale_warning.h"
@@ -50,7 +51,7 @@ void print_run_summary(const Session& session, const Manifest& manifest, const M
 }  // namespace
 
 int run_session(Session& session, Progress& bar, const Common& c, const std::string& next) {
-  const bool complete = session.run();
+  const bool complete = run_with_report(session);
   bar.clear();
   if (!complete) {
     if (!c.quiet)
@@ -61,8 +62,6 @@ int run_session(Session& session, Progress& bar, const Common& c, const std::str
   }
   const Manifest manifest = session.manifest();
   const Series series = session.series();
-  write_run_report(session.dir(), run_info(manifest), series, session.frames());
-  session.complete();
   const Metrics metrics = control_metrics(series, manifest.setpoint_tolerance_px, manifest.setpoints);
   if (c.json) {
     Json j = {{"out", session.dir().string()}};

@@ -45,22 +45,37 @@ class Registry {
   /// The same with a schema that depends on other parts.
   template <class T>
   void add(const Schema<typename T::Params>& s) {
+    using Params = typename T::Params;
+    add_made<Params>(
+        s, traits::of<T>(), [](const Params& p, const Context& c) { return std::make_unique<T>(p, c); },
+        [](Params& p, const Node& n) {
+          if constexpr (requires { T::settle(p, n); }) T::settle(p, n);
+        });
+  }
+  /// A part that a function makes, for a class that is not known at compile time. `settle`: see add().
+  template <class P>
+  void add_made(const Schema<P>& s, const std::vector<Trait>& its_traits,
+                const std::function<std::unique_ptr<Interface>(const P&, const Context&)>& make,
+                const std::function<void(P&, const Node&)>& settle = [](P&, const Node&) {}) {
     Entry e;
-    e.traits = traits::of<T>();
+    e.traits = its_traits;
     e.json_schema = s.json_schema();
     e.json_schema["x-traits"] = Json::array();
     for (const Trait t : e.traits) e.json_schema["x-traits"].push_back(traits::kWords.at(std::size_t(t)));
-    e.resolve = [s, traits = e.traits](const Node& n) {
-      typename T::Params p = s.parse(n, {"type"});
-      if constexpr (requires { T::settle(p, n); }) T::settle(p, n);
+    e.resolve = [s, traits = e.traits, make, settle](const Node& n) {
+      P p = s.parse(n, {"type"});
+      settle(p, n);
       Json resolved = {{"type", s.name()}};
       resolved.update(s.to_json(p));
       return PartType{s.name(), traits, std::move(resolved),
-                      [p](const Context& c) { return std::make_unique<T>(p, c); }, s.notes(p)};
+                      [p, make](const Context& c) { return make(p, c); }, s.notes(p)};
     };
     if (!entries_.emplace(s.name(), std::move(e)).second)
       throw Error(Errc::internal, kind_ + " " + s.name(), "registered twice");
   }
+  /// A part that only another program has: a file that names it gives Error(usage) with `advice`, unless a
+  /// part of this name is added.
+  void elsewhere(const std::string& name, std::string advice) { elsewhere_[name] = std::move(advice); }
 
   /// Registry of the parts with a trait, under another name of the kind.
   Registry only(Trait t, std::string kind, std::string doc) const {
@@ -78,12 +93,12 @@ class Registry {
       if (table.is_object() && !table.contains("type")) fail_if_set(node);
       n.fail(fmt::format("key \"type\" is missing; known {}s: {}", kind_, fmt::join(names(), ", ")));
     }
-    const auto it = entries_.find(table["type"].get<std::string>());
-    if (it == entries_.end())
-      throw Error(Errc::usage, node.where("type"),
-                  fmt::format("unknown {} \"{}\"{}", kind_, table["type"].get<std::string>(),
-                              suggestion(table["type"].get<std::string>(), names())));
-    return it->second.resolve(node);
+    const auto type = table["type"].get<std::string>();
+    if (const auto it = entries_.find(type); it != entries_.end()) return it->second.resolve(node);
+    if (const auto it = elsewhere_.find(type); it != elsewhere_.end())
+      throw Error(Errc::usage, node.where(), it->second);
+    throw Error(Errc::usage, node.where("type"),
+                fmt::format("unknown {} \"{}\"{}", kind_, type, suggestion(type, names())));
   }
 
   bool empty() const { return entries_.empty(); }
@@ -148,6 +163,7 @@ class Registry {
   };
   std::string kind_, doc_;
   std::map<std::string, Entry> entries_;
+  std::map<std::string, std::string> elsewhere_;  ///< advice, by name
 };
 
 }  // namespace faba

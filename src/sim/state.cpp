@@ -28,6 +28,24 @@ std::span<const float> Columns::operator[](std::string_view name) const {
   return const_cast<Columns&>(*this)[name];  // does not modify
 }
 
+void Columns::assign(const Columns& other) {
+  const auto same = [](const Column& a, const Column& b) {
+    return a.name == b.name && a.data.size() == b.data.size();
+  };
+  if (!std::equal(columns_.begin(), columns_.end(), other.columns_.begin(), other.columns_.end(), same))
+    throw Error(Errc::input, "checkpoint", "belongs to another scenario");
+  for (std::size_t i = 0; i < columns_.size(); ++i)
+    std::copy(other.columns_[i].data.begin(), other.columns_[i].data.end(), columns_[i].data.begin());
+}
+
+void State::assign(const State& other) {
+  agents.assign(other.agents);
+  step = other.step;
+  t = other.t;
+  current = other.current;
+  command = other.command;
+}
+
 std::string State::hash() const {
   std::vector<const Column*> sorted;  // sorted, so that the order of declaration does not matter
   for (const Column& c : agents.all()) sorted.push_back(&c);

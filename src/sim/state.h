@@ -31,6 +31,9 @@ class Columns {
   std::span<float> operator[](std::string_view name);
   std::span<const float> operator[](std::string_view name) const;
   const std::vector<Column>& all() const { return columns_; }
+  /// Copies the values of equal columns; views of the columns stay valid. Throws Error(input) if the columns
+  /// differ.
+  void assign(const Columns& other);
   void archive(Archive& a) { a& size_& columns_; }
 
  private:
@@ -49,6 +52,8 @@ struct State {
 
   /// State hash, sixteen hexadecimal digits; equal on all machines for equal states.
   std::string hash() const;
+  /// Copies a state with equal columns; views of the columns stay valid. Throws Error(input) if they differ.
+  void assign(const State& other);
   void archive(Archive& a) { a& step& t& agents& current& command; }
 };
 

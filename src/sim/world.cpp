@@ -191,12 +191,10 @@ void World::check_finite() const {
                 state_.step, &p - parts_.populations.data()));
 }
 
-void World::restore(State saved) {
-  if (saved.agents.size() != state_.agents.size() ||
-      saved.agents.all().size() != state_.agents.all().size() ||
-      saved.current.size() != state_.current.size())
+void World::restore(const State& saved) {
+  if (saved.current.size() != state_.current.size())
     throw Error(Errc::input, "checkpoint", "belongs to another scenario");
-  state_ = std::move(saved);
+  state_.assign(saved);
   exclusion_ = Exclusion(parts_.exclusion, *parts_.arena, parts_.seed);
   exclusion_.occupy(state_);
 }

@@ -46,8 +46,8 @@ class World {
   void step();
   /// Throws Error(internal) with agent, step and model if a position is not finite.
   void check_finite() const;
-  /// Resumes from a saved state of a world with the same parts.
-  void restore(State saved);
+  /// Resumes from a saved state of a world with the same parts; views of the columns stay valid.
+  void restore(const State& saved);
 
   const State& state() const { return state_; }
   const WorldParts& parts() const { return parts_; }

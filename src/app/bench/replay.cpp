@@ -11,7 +11,7 @@
 
 namespace faba {
 
-Replayed replay_run(const std::filesystem::path& dir,
+Replayed replay_run(const std::filesystem::path& dir, const Parts& parts,
                     const std::function<bool(std::uint64_t done, std::uint64_t total)>& keep_running) {
   std::error_code ec;
   const auto commands = dir / run_files::kCommands, video = dir / "video.avi";
@@ -23,7 +23,7 @@ Replayed replay_run(const std::filesystem::path& dir,
     throw Error(Errc::input, dir.string(), "is not a run on a bench: commands.csv not found");
   if (!std::filesystem::exists(video, ec))
     throw Error(Errc::input, dir.string(), "video.avi not found; record the run with record.lossless = true");
-  const Scenario s = read_scenario(read_toml(dir / run_files::kScenario), builtin_parts());
+  const Scenario s = read_scenario(read_toml(dir / run_files::kScenario), parts);
   BenchControls controls(s);
   ReplayRig rig(video, commands);
   Loop loop = controls.loop(rig, s.frame_period());

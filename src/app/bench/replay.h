@@ -4,6 +4,8 @@
 #include <functional>
 #include <optional>
 
+#include "app/scenario/parts.h"
+
 namespace faba {
 
 /// Comparison of the commands of a recorded bench run with those computed again from its pictures.
@@ -13,10 +15,10 @@ struct Replayed {
   std::optional<std::uint64_t> first_difference;  ///< frame of the first different command
 };
 
-/// Computes the commands of the run in `dir` again. Throws Error(input) if it is not a run on a bench or has
+/// Computes the commands of the run in `dir` again with `parts`. Throws Error(input) if it is not a run on a bench or has
 /// no lossless video. `keep_running` is called after every frame; throws Error(interrupted) if it returns
 /// false.
-Replayed replay_run(const std::filesystem::path& dir,
+Replayed replay_run(const std::filesystem::path& dir, const Parts& parts,
                     const std::function<bool(std::uint64_t done, std::uint64_t total)>& keep_running);
 
 }  // namespace faba

@@ -41,6 +41,19 @@ struct Loop {
   Command last;            ///< command of the previous cycle
 };
 
+/// The first half of a control cycle: what is known when the controller decides.
+struct CycleInput {
+  Observation seen;
+  double dt = 0;  ///< s, since the previous cycle
+  Estimate estimate;
+  Target target;
+};
+/// read -> estimate -> reference. Returns false if the rig has no more frames.
+bool begin_cycle(Loop& loop, CycleInput& cycle);
+/// limit -> write -> sinks, for the command that was decided. Throws Error(usage) if the number of currents is
+/// not the number of coils.
+void end_cycle(Loop& loop, const CycleInput& cycle, Command command);
+
 /// One control cycle: read -> estimate -> reference -> control -> limit -> write -> sinks. Returns false if
 /// the rig has no more frames; then nothing was written. The caller must call Rig::safe() at the end, as
 /// run() does. Throws Error(usage) if the number of currents of the controller is not the number of coils.

@@ -129,7 +129,7 @@ Manifest Session::manifest() const {
   m.distance_source = "true";
   m.notes = notes_;
   Manifest::Simulated simulated{.threads = pool_->threads(),
-                                .state_hash = world.state().hash(),
+                                .state_hash = simulation_->state_hash(),
                                 .step_s = simulation_->step(),
                                 .steps = world.state().step,
                                 .cells = world.state().agents.size(),

@@ -56,10 +56,6 @@ Scenario LiveRun::recorded() const {
   return s;
 }
 
-std::string LiveRun::state_hash() const {
-  State s = simulation_->world().state();
-  std::fill(s.command.begin(), s.command.end(), 0.0);  // the coils are de-energised at the end of a run
-  return s.hash();
-}
+std::string LiveRun::state_hash() const { return simulation_->state_hash(); }
 
 }  // namespace faba

@@ -219,12 +219,18 @@ void Simulation::apply_due(std::uint64_t cycles) {
     apply(events_[next_event_]);
 }
 
+std::string Simulation::state_hash() const {
+  State s = world_->state();
+  std::fill(s.command.begin(), s.command.end(), 0.0);
+  return s.hash();
+}
+
 void Simulation::archive(Archive& a) {
   State state = a.reading() ? State{} : world_->state();
   a& state & loop_->next & loop_->last_t & loop_->last.current;
   if (a.reading()) {
     apply_due(loop_->next);  // the state read below is that of the exchanged parts
-    world_->restore(std::move(state));
+    world_->restore(state);
   }
   rig_->archive(a);
   estimator_->archive(a);

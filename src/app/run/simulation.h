@@ -32,6 +32,8 @@ class Simulation {
   const ControlContext& control() const { return control_; }
   const Frame& frame() const { return frame_; }
   double step() const { return world_->parts().dt; }
+  /// Hash of the state with the coils de-energised, as at the end of a run.
+  std::string state_hash() const;
   /// The complete state of the simulation, for checkpoints.
   void archive(Archive& a);
   /// Exchanges the parts that the event names immediately; events of the scenario are applied automatically.

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "core/error.h"
+#include "core/child.h"
 #include "study/engines/engines.h"
 
 namespace faba::cli {
@@ -72,7 +73,7 @@ EngineStart::EngineStart(EngineOptions options, const std::filesystem::path& dir
 
 bool EngineStart::operator()(const Round& round, ResultStore& store) {
   if (!run_) {
-    const WorkerCommand worker{std::filesystem::read_symlink("/proc/self/exe"), dir_, study_hash_};
+    const WorkerCommand worker{program_file("faba"), dir_, study_hash_};
     EngineRun::Reports reports;
     reports.progress = [this](std::uint64_t done, std::uint64_t total, const std::string& waiting) {
       bar_.update(done, total, waiting);

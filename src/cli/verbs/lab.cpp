@@ -10,6 +10,7 @@
 
 #include "cli/command_line.h"
 #include "core/error.h"
+#include "core/child.h"
 #include "core/toml.h"
 #include "server/lab.h"
 
@@ -42,7 +43,7 @@ void open_browser(const std::filesystem::path& door) {
 
 int lab(const LabVerb& v, const Common& c) {
   LabOptions o;
-  o.program = std::filesystem::read_symlink("/proc/self/exe");
+  o.program = program_file("faba");
   o.scenes = o.program.parent_path().parent_path() / "scenes";
   o.scene = v.scene;
   o.pages = v.pages;

@@ -34,8 +34,38 @@ int schema_of_series(const Common& c) {
   return 0;
 }
 
-int schema(const std::string& file, const Common& c) {
+Json described_option(const CLI::Option& o) {
+  Json j{{"name", o.get_positional()       ? o.get_name(true)
+                  : o.get_lnames().empty() ? o.get_name()
+                                           : "--" + o.get_lnames().front()},
+         {"description", o.get_description()},
+         {"type", o.get_items_expected_max() == 0 ? "flag" : o.get_type_name()}};
+  if (o.get_positional()) j["positional"] = true;
+  if (o.get_required()) j["required"] = true;
+  if (o.get_items_expected_max() > 1) j["several"] = true;
+  if (!o.get_snames().empty()) j["short"] = "-" + o.get_snames().front();
+  return j;
+}
+
+// The verbs with their options, for completions, manual pages and the Python package.
+Json described_verbs(const CLI::App& app, const std::string& parent) {
+  Json all = Json::array();
+  for (const CLI::App* v : app.get_subcommands([](const CLI::App*) { return true; })) {
+    Json one{
+        {"name", parent + v->get_name()}, {"description", v->get_description()}, {"options", Json::array()}};
+    for (const CLI::Option* o : v->get_options()) one["options"].push_back(described_option(*o));
+    all.push_back(one);
+    for (const Json& inner : described_verbs(*v, one["name"].get<std::string>() + " ")) all.push_back(inner);
+  }
+  return all;
+}
+
+int schema(const std::string& file, const CLI::App& app, const Common& c) {
   if (file == "series") return schema_of_series(c);
+  if (file == "verbs") {
+    fmt::print("{}\n", Json{{"verbs", described_verbs(app, "")}}.dump(c.json ? -1 : 2));
+    return 0;
+  }
   const Parts& parts = builtin_parts();
   const Json j = file == "rig"                   ? rig_file_json_schema(parts)
                  : file == "identify"            ? identify_study_schema()
@@ -58,13 +88,14 @@ void add_schema(CLI::App& app, CommandLine& line) {
                      "Print the JSON Schema of a scenario, coil system or study file, for editors and forms",
                      "  faba schema > scenario.json\n  faba schema rig > rig.json\n  faba schema series");
   const auto of = std::make_shared<std::string>("scenario");
-  v->add_option("kind", *of,
-                "Kind of file: scenario (default), rig, experiment or engine; the verb that reads the study "
-                "file; or series, "
-                "which lists the columns of series.csv")
+  v->add_option(
+       "kind", *of,
+       "Kind of file: scenario (default), rig, experiment or engine; the verb that reads the study "
+       "file; series, which lists the columns of series.csv; or verbs, which lists all commands with "
+       "their options")
       ->check(one_of({"scenario", "rig", "identify", "calibrate", "compare-controllers", "activity", "moment",
-                      "optics", "experiment", "engine", "series"}));
-  v->callback([of, &line] { line.code = schema(*of, line.common); });
+                      "optics", "experiment", "engine", "series", "verbs"}));
+  v->callback([of, &app, &line] { line.code = schema(*of, app, line.common); });
 }
 
 }  // namespace faba::cli

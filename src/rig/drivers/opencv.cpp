@@ -1,8 +1,7 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
-#include <filesystem>
-
+#include "core/child.h"
 #include "rig/capture.h"
 
 namespace faba {
@@ -50,9 +49,7 @@ class OpenCvCamera final : public Camera {
 
  private:
   static OpenCapture* load() {
-    std::error_code ec;
-    const auto own = std::filesystem::read_symlink("/proc/self/exe", ec).parent_path();
-    const std::string module = (own / "faba-capture.so").string();
+    const std::string module = program_file("faba-capture.so").string();
     void* library = dlopen(module.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (!library) throw Error(Errc::device, "opencv", fmt::format("cannot load {}: {}", module, dlerror()));
     auto* open = reinterpret_cast<OpenCapture*>(dlsym(library, "faba_open_capture"));

@@ -32,13 +32,6 @@ constexpr double kEarlyFraction =
 
 }  // namespace
 
-std::filesystem::path guard_program() {
-  std::error_code ec;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", ec);
-  if (ec) fail("cannot read the path of the program: " + ec.message());
-  return self.parent_path() / "faba-coil-guard";
-}
-
 GuardLink::GuardLink(const GuardSetup& setup, const std::filesystem::path& guard)
     : coils_(setup.coils.size()),
       early_timeout_(kEarlyFraction *

@@ -7,13 +7,11 @@
 #include <optional>
 #include <thread>
 
+#include "core/child.h"
 #include "rig/setup/guard_message.h"
 #include "rig/setup/guard_setup.h"
 
 namespace faba {
-
-/// Path of the guard's program, in the folder of this program.
-std::filesystem::path guard_program();
 
 /// Client of the guard: starts its process, sends heartbeats and requested currents. The guard de-energises
 /// the coils when this object is destroyed or the program ends in any way.
@@ -21,7 +19,7 @@ class GuardLink {
  public:
   /// Throws Error(device) if the process cannot be started or the device cannot be opened. The guard starts
   /// disarmed.
-  explicit GuardLink(const GuardSetup& setup, const std::filesystem::path& guard = guard_program());
+  explicit GuardLink(const GuardSetup& setup, const std::filesystem::path& guard = program_file("faba-coil-guard"));
   ~GuardLink();
   GuardLink(const GuardLink&) = delete;
   GuardLink& operator=(const GuardLink&) = delete;

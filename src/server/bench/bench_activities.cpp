@@ -9,7 +9,7 @@
 #include "app/scenario/read_scenario.h"
 #include "server/access.h"
 #include "server/bench/bench_console.h"
-#include "study/pages/reported_bench_run.h"
+#include "study/pages/reported_run.h"
 #include "study/pages/run_report.h"
 
 namespace faba {

@@ -61,7 +61,7 @@ struct Setting {
 
 std::vector<Setting> settings(const ControllerStudy& study, std::vector<std::string>* notes = nullptr) {
   std::vector<Setting> all;
-  const Parts& parts = builtin_parts();
+  const Parts& parts = study.parts ? *study.parts : builtin_parts();
   std::vector<std::optional<int>> delays(study.delays.begin(), study.delays.end());
   if (delays.empty()) delays.emplace_back();
   Pool pool(1);

@@ -2,6 +2,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct ControllerStudy {
   std::vector<int> delays;  ///< frames; empty: that of the scene
   int seeds = 20;           ///< trials of each combination, with consecutive seeds from `first_seed`
   std::uint64_t first_seed = 1;
+  std::shared_ptr<const Parts> parts = nullptr;  ///< of the scenarios; null: those of the program
 };
 /// Reads a study file: `scene`, `seeds`, `first_seed`, `delays`, [[controller]], [[model]] (see Variant).
 /// Throws Error(usage).

@@ -13,7 +13,7 @@ namespace {
 
 int rig_replay(const std::string& dir, const Common& c) {
   Progress bar("replaying", !c.quiet && !c.json);
-  const Replayed r = replay_run(dir, [&](std::uint64_t done, std::uint64_t total) {
+  const Replayed r = replay_run(dir, builtin_parts(), [&](std::uint64_t done, std::uint64_t total) {
     bar.update(done, total);
     return !stop_requested().load();
   });

@@ -13,7 +13,7 @@
 #include "core/child.h"
 #include "core/error.h"
 #include "study/pages/quality_output.h"
-#include "study/pages/reported_bench_run.h"
+#include "study/pages/reported_run.h"
 #include "study/pages/run_report.h"
 #include "study/plot/markup.h"
 #include "study/quality/scale_warning.h"

@@ -1,4 +1,4 @@
-#include "study/pages/reported_bench_run.h"
+#include "study/pages/reported_run.h"
 
 #include <fmt/format.h>
 
@@ -6,6 +6,13 @@
 #include "study/pages/run_report.h"
 
 namespace faba {
+
+bool run_with_report(Session& session) {
+  if (!session.run()) return false;
+  write_run_report(session.dir(), run_info(session.manifest()), session.series(), session.frames());
+  session.complete();
+  return true;
+}
 
 bool run_with_report(BenchSession& session) {
   bool complete = false;
