@@ -41,6 +41,10 @@ class Store {
   }
   virtual std::string unfinished_path() const = 0;  ///< location of the pictures before finish()
   std::uint64_t size() const { return at_.size(); }
+  /// The reason of an error, and where the frames are that were recorded before it.
+  std::string kept_frames(const Error& e) const {
+    return fmt::format("{}; {} recorded frames are in {}", e.reason(), size(), unfinished_path());
+  }
 
  protected:
   virtual void write(const Gray8& picture) = 0;
@@ -83,7 +87,11 @@ class VideoStore final : public Store {
     writer_.sync();
     const std::optional<FrameInterval> interval = frame_interval(at_);
     VideoReader recorded(unfinished_path(), interval ? 1 / interval->s : rate_);
-    export_tiff(recorded, {.out = out_, .um_per_px = job_.um_per_px});
+    try {
+      export_tiff(recorded, {.out = out_, .um_per_px = job_.um_per_px});
+    } catch (const Error& e) {
+      throw Error(e.code(), e.where(), kept_frames(e));
+    }
     std::error_code ec;
     std::filesystem::remove(unfinished_path(), ec);
   }
@@ -256,9 +264,7 @@ Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job) {
     f.image.reset();
   }
   if (failure && store->size() > 0)
-    throw Error(failure->code(), failure->where(),
-                fmt::format("{}; {} recorded frames are in {}", failure->reason(), store->size(),
-                            store->unfinished_path()));
+    throw Error(failure->code(), failure->where(), store->kept_frames(*failure));
   store->finish();
   if (failure) throw Error(*failure);
   return result;
