@@ -193,13 +193,14 @@ py::object simulate(const py::object& scene, const py::dict& parameters, const p
   const SceneArguments a{scene, py::none(), set, duration, {estimator, reference, controller}};
   Batch batch(read_document(a), read_parameters(parameters), read_seeds(seeds), read_statistic(statistic),
               a.parts.parts(raised), raised);
-  raised->run([&] { batch.run(threads); });
+  raised->run([&] { batch.run(checked_threads(threads)); });
   return batch.values();
 }
 
-py::object compare(const std::string& file, const py::dict& controllers, const py::object& seeds,
+py::object compare(const py::object& path, const py::dict& controllers, const py::object& seeds,
                    unsigned threads, const py::object& page) {
   const auto raised = std::make_shared<Raised>();
+  const auto file = py::str(path).cast<std::string>();
   ControllerStudy study = read_controller_study(file);
   if (!seeds.is_none()) study.seeds = seeds.cast<int>();
   // Each class is a part of its own name in the scenarios of the study.
@@ -219,7 +220,7 @@ py::object compare(const std::string& file, const py::dict& controllers, const p
   ResultStore results({}, study_hash(study));
   std::optional<ControllerComparison> comparison;
   SweepOptions options;
-  options.threads = threads;
+  options.threads = checked_threads(threads);
   options.stop = [&] { return raised->stopped(); };
   raised->run([&] { comparison = compare_controllers(study, results, options); });
   if (!page.is_none()) {

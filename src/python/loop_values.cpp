@@ -127,7 +127,7 @@ void bind_target(py::module_& m) {
 }
 
 void bind_tick(py::module_& m) {
-  py::class_<TickCopy>(m, "Tick", "The data of one control cycle.")
+  py::class_<TickCopy, std::shared_ptr<TickCopy>>(m, "Tick", "The data of one control cycle.")
       .def_readonly("index", &TickCopy::index, "int: index of the cycle")
       .def_property_readonly(
           "t", [](const TickCopy& t) { return t.seen->t; }, "float: time of the observation, s")

@@ -143,7 +143,7 @@ py::array_t<float> flow(const Numbers& a, const Numbers& b, const std::string& m
   const FlowRegistry::PartType part = flow_part(choice);
   Flow result;
   Raised().run([&] {
-    Pool pool(threads);
+    Pool pool(checked_threads(threads));
     part.make({&pool})->between(first, second, result);
   });
   py::array_t<float> out({first.height, first.width, 2});

@@ -29,7 +29,7 @@ class WatchedRun {
     options_.out = out;
     options_.numbered = numbered;
     options_.force = force;
-    options_.threads = threads;
+    options_.threads = checked_threads(threads);
     options_.stop = &stop_;
     options_.progress = [this](std::uint64_t done, std::uint64_t total) { report(done, total); };
   }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
-#include <unistd.h>
 
 #include "python/convert.h"
 
@@ -14,22 +13,9 @@ class PySimulation::Last final : public Sink {
   std::shared_ptr<TickCopy> tick;
 };
 
-PySimulation::InUse::InUse(PySimulation& s) : simulation_(s) {
-  if (s.pool_.threads() > 1 && getpid() != s.process_)
-    throw Error(
-        Errc::usage, "Simulation",
-        "was created before this process was forked, and its threads exist only in the other process; "
-        "create it in this process, or with threads=1");
-  if (s.used_.exchange(true))
-    throw Error(
-        Errc::usage, "Simulation",
-        "is used by another thread, or by a part of its own control loop; wait for that call, or create "
-        "a simulation for each thread");
-}
-PySimulation::InUse::~InUse() { simulation_.used_ = false; }
-
 PySimulation::PySimulation(Scenario s, unsigned threads, std::shared_ptr<Raised> raised)
-    : scenario_(std::move(s)), raised_(std::move(raised)), pool_(threads), process_(getpid()) {
+    : scenario_(std::move(s)), raised_(std::move(raised)), pool_(threads) {
+  exclusive_.threads = pool_.threads();
   simulation_ = std::make_unique<Simulation>(scenario_, *scenario_.params.seed, pool_);
   last_ = std::make_unique<Last>();
   simulation_->loop().sinks.push_back(last_.get());
@@ -99,12 +85,12 @@ std::shared_ptr<PySimulation> make(const py::object& scene, const py::object& se
   const auto raised = std::make_shared<Raised>();
   Scenario s = read_scene({scene, seed, set, duration, {estimator, reference, controller}}, raised);
   std::shared_ptr<PySimulation> made;
-  raised->run([&] { made = std::make_shared<PySimulation>(std::move(s), threads, raised); });
+  raised->run([&] { made = std::make_shared<PySimulation>(std::move(s), checked_threads(threads), raised); });
   return made;
 }
 
 std::shared_ptr<TickCopy> turn(PySimulation& s, const py::object& command) {
-  const PySimulation::InUse use(s);
+  const InUse use(s.exclusive());
   std::optional<Command> given;
   if (!command.is_none()) given = Command{numbers_of(command, "command")};
   std::shared_ptr<TickCopy> tick;
@@ -114,7 +100,7 @@ std::shared_ptr<TickCopy> turn(PySimulation& s, const py::object& command) {
 
 py::object run(const py::object& self, const py::object& frames) {
   auto& s = self.cast<PySimulation&>();
-  const PySimulation::InUse use(s);
+  const InUse use(s.exclusive());
   std::optional<std::uint64_t> end;
   if (!frames.is_none()) end = s.frame() + frames.cast<std::uint64_t>();
   s.raised().run([&] { s.run(end); });
@@ -123,7 +109,7 @@ py::object run(const py::object& self, const py::object& frames) {
 
 py::dict state(const py::object& self) {
   auto& s = self.cast<PySimulation&>();
-  const PySimulation::InUse use(s);
+  const InUse use(s.exclusive());
   py::dict columns;
   for (const Column& c : s.simulation().world().state().agents.all())
     columns[py::str(c.name)] =
@@ -132,7 +118,7 @@ py::dict state(const py::object& self) {
 }
 
 py::object picture(PySimulation& s) {
-  const PySimulation::InUse use(s);
+  const InUse use(s.exclusive());
   ImageRef image;
   s.raised().run([&] { image = s.picture(); });
   auto* kept = new ImageRef(image);
@@ -141,26 +127,26 @@ py::object picture(PySimulation& s) {
 }
 
 py::object drawing(PySimulation& s) {
-  const PySimulation::InUse use(s);
+  const InUse use(s.exclusive());
   RgbImage image;
   s.raised().run([&] { image = s.drawing(); });
   return py::array_t<std::uint8_t>({image.height, image.width, 3}, &image.px.front().r);
 }
 
 std::string state_hash(PySimulation& s) {
-  const PySimulation::InUse use(s);
+  const InUse use(s.exclusive());
   return s.simulation().state_hash();
 }
 
 py::bytes save(PySimulation& s) {
-  const PySimulation::InUse use(s);
+  const InUse use(s.exclusive());
   std::vector<std::uint8_t> bytes;
   s.raised().run([&] { bytes = s.save(); });
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 void restore(PySimulation& s, const py::bytes& saved) {
-  const PySimulation::InUse use(s);
+  const InUse use(s.exclusive());
   const std::string_view text = saved;
   const std::vector<std::uint8_t> bytes(text.begin(), text.end());
   s.raised().run([&] { s.restore(bytes); });

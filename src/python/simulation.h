@@ -1,9 +1,9 @@
 #pragma once
-#include <atomic>
 #include <memory>
 
 #include "app/run/simulation.h"
 #include "app/sinks/drawn_swarm.h"
+#include "python/in_use.h"
 #include "python/loop_values.h"
 #include "python/scene.h"
 
@@ -32,17 +32,7 @@ class PySimulation {
   std::vector<std::uint8_t> save();
   void restore(const std::vector<std::uint8_t>& saved);
 
-  /// While it exists, no other thread and no part of the loop may use the simulation. Throws Error(usage).
-  class InUse {
-   public:
-    explicit InUse(PySimulation& s);
-    ~InUse();
-    InUse(const InUse&) = delete;
-    InUse& operator=(const InUse&) = delete;
-
-   private:
-    PySimulation& simulation_;
-  };
+  Exclusive& exclusive() { return exclusive_; }
   Raised& raised() { return *raised_; }
 
  private:
@@ -52,11 +42,10 @@ class PySimulation {
   Scenario scenario_;
   std::shared_ptr<Raised> raised_;
   Pool pool_;
-  int process_;  ///< that created it
   std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<Last> last_;
   std::unique_ptr<DrawnSwarm> drawn_;
-  std::atomic<bool> used_{false};
+  Exclusive exclusive_{"Simulation"};
 };
 
 void bind_simulation(pybind11::module_& m);

@@ -6,7 +6,8 @@
 #include <cmath>
 
 #include "app/sinks/drawn_swarm.h"
-#include "core/counted.h"
+#include "core/random/distributions.h"
+#include "core/random/draw_blocks.h"
 #include "python/convert.h"
 
 namespace faba::python {
@@ -24,8 +25,7 @@ Vec2 true_centroid(const State& s) {
 }
 
 // Root-mean-square distance of the cells from their centroid, m.
-double true_radius(const State& s) {
-  const Vec2 c = true_centroid(s);
+double true_radius(const State& s, Vec2 c) {
   const auto x = s.agents["x"], y = s.agents["y"];
   double sum = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -61,18 +61,36 @@ Command PolicyOutput::command(const ControlContext& c, Vec2 centroid, const doub
   return command;
 }
 
-Worlds::Worlds(Document scene, std::size_t number, unsigned threads, PolicyOutput output)
+Worlds::Worlds(Document scene, std::size_t number, unsigned threads, PolicyOutput output, double noise_px)
     : scene_(std::move(scene)),
       output_(output),
+      noise_px_(noise_px),
       parts_(builtin_parts()),
       pool_(unsigned(std::min<std::size_t>(number_of_threads(threads), number))),
-      worlds_(number) {
-  for (World& w : worlds_) w.pool = std::make_unique<Pool>(1);
-}
+      worlds_(number) {}
 
-void Worlds::begin(World& w) {
+void Worlds::begin(World& w) const {
   if (!begin_cycle(w.simulation->loop(), w.cycle))
     throw Error(Errc::internal, "worlds", "the camera stopped");
+  look(w);
+}
+
+// What Python gets of a world. Here, because this thread has its cells in the cache.
+void Worlds::look(World& w) const {
+  const ControlContext& c = w.simulation->control();
+  const State& state = w.simulation->world().state();
+  w.input.resize(PolicyInput::size(c));
+  Estimate seen = w.cycle.estimate;
+  if (noise_px_ > 0) {
+    const auto bits = draw(*w.scenario->params.seed, kPolicyDraws, 0, std::uint32_t(w.cycle.seen.frame));
+    const auto noise = [&](std::uint32_t u) {
+      return noise_px_ * c.scale.m_per_px * normal_quantile((double(u) + 0.5) * 0x1p-32);
+    };
+    seen.centroid = seen.centroid + Vec2{noise(bits[0]), noise(bits[1])};
+  }
+  PolicyInput::fill(w.input.data(), c, seen, w.cycle.target, w.simulation->loop().last);
+  w.centroid = true_centroid(state);
+  w.radius = true_radius(state, w.centroid);
 }
 
 void Worlds::reset(const std::vector<std::size_t>& which, const std::vector<std::uint64_t>& seeds,
@@ -81,25 +99,24 @@ void Worlds::reset(const std::vector<std::size_t>& which, const std::vector<std:
     Document d = scene_;
     for (const auto& [path, value] : sets[k]) set_value(d, path, value);
     d.set("seed", Json(seeds[k]), "seed");
-    World& w = worlds_.at(which[k]);
-    w.simulation.reset();
+    World w;  // replaces the former one when it is complete
+    w.pool = std::make_unique<Pool>(1);
     w.scenario = std::make_unique<Scenario>(read_scenario_with(std::move(d), parts_));
     w.simulation = std::make_unique<Simulation>(*w.scenario, seeds[k], *w.pool);
-    w.finished = false;
-    w.cycle = {};
     begin(w);
+    worlds_.at(which[k]) = std::move(w);
   });
 }
 
 void Worlds::step(const double* actions) {
   const std::size_t n = outputs();
-  pool_.run(worlds_.size(), [&](std::size_t i) {
+  pool_.run_uneven(worlds_.size(), [&](std::size_t i) {
     World& w = worlds_[i];
     if (w.finished) return;
     end_cycle(w.simulation->loop(), w.cycle,
               output_.command(w.simulation->control(), w.cycle.estimate.centroid, actions + i * n));
     w.finished = w.simulation->loop().next == w.scenario->frames();
-    if (!w.finished) begin(w);
+    w.finished ? look(w) : begin(w);
   });
 }
 
@@ -109,17 +126,26 @@ namespace {
 class PyWorlds {
  public:
   PyWorlds(const py::object& scene, std::size_t number, unsigned threads, const py::object& set,
-           const py::object& duration, const std::string& action, double strength)
-      : worlds_(read_document({scene, py::none(), set, duration, {}}), checked(number), threads,
-                {currents(action), strength}) {}
+           const py::object& duration, const std::string& action, double strength, double noise_px)
+      : worlds_(read_document({scene, py::none(), set, duration, {}}), checked(number),
+                checked_threads(threads), {currents(action), strength}, noise_px) {
+    if (!(noise_px >= 0 && noise_px < 1e6))
+      throw Error(Errc::usage, "noise_px", fmt::format("{} is not between 0 and 1e6", noise_px));
+    exclusive_.threads = worlds_.pool().threads();
+  }
 
   void reset(const std::vector<std::size_t>& which, const std::vector<std::uint64_t>& seeds,
              const py::list& sets) {
+    const InUse use(exclusive_);
     if (which.size() != seeds.size() || which.size() != sets.size())
       throw Error(Errc::usage, "reset", "which, seeds and sets have different lengths");
-    for (const std::size_t i : which)
-      if (i >= worlds_.all().size())
-        throw Error(Errc::usage, "reset", fmt::format("there is no world {}", i));
+    std::vector<bool> named(worlds_.all().size());
+    for (const std::size_t i : which) {
+      if (i >= named.size() || named[i])
+        throw Error(Errc::usage, "reset",
+                    fmt::format("there is no world {}, or it is named twice; there are {}", i, named.size()));
+      named[i] = true;
+    }
     std::vector<std::vector<std::pair<std::string, Json>>> changes(sets.size());
     for (std::size_t k = 0; k < sets.size(); ++k)
       for (const auto& [path, value] : py::reinterpret_borrow<py::dict>(sets[k])) {
@@ -132,6 +158,7 @@ class PyWorlds {
   }
 
   void step(const py::array_t<double, py::array::c_style | py::array::forcecast>& actions) {
+    const InUse use(exclusive_);
     require_begun();
     const auto n = py::ssize_t(worlds_.all().size()), k = py::ssize_t(worlds_.outputs());
     if (actions.ndim() != 2 || actions.shape(0) != n || actions.shape(1) != k)
@@ -142,20 +169,19 @@ class PyWorlds {
     raised_.run([&] { worlds_.step(copy.data()); });
   }
 
-  py::array_t<float> observations() const {
+  py::array_t<float> observations() {
+    const InUse use(exclusive_);
     require_begun();
     const std::size_t n = worlds_.all().size(), k = worlds_.inputs();
     py::array_t<float> a({n, k});
-    for (std::size_t i = 0; i < n; ++i) {
-      const Worlds::World& w = worlds_.all()[i];
-      PolicyInput::fill(a.mutable_data(py::ssize_t(i), 0), w.simulation->control(), w.cycle.estimate,
-                        w.cycle.target, w.simulation->loop().last);
-    }
+    float* to = a.mutable_data();
+    for (const Worlds::World& w : worlds_.all()) to = std::copy(w.input.begin(), w.input.end(), to);
     return a;
   }
 
   template <class Value>
-  py::array vectors(Value value) const {
+  py::array vectors(Value value) {
+    const InUse use(exclusive_);
     require_begun();
     py::array_t<double> a({worlds_.all().size(), std::size_t(2)});
     for (std::size_t i = 0; i < worlds_.all().size(); ++i) {
@@ -166,7 +192,8 @@ class PyWorlds {
     return a;
   }
   template <class T, class Value>
-  py::array numbers(Value value) const {
+  py::array numbers(Value value) {
+    const InUse use(exclusive_);
     require_begun();
     py::array_t<T> a(py::ssize_t(worlds_.all().size()));
     for (std::size_t i = 0; i < worlds_.all().size(); ++i) a.mutable_at(i) = T(value(worlds_.all()[i]));
@@ -174,6 +201,7 @@ class PyWorlds {
   }
 
   py::array drawing(std::size_t which) {
+    const InUse use(exclusive_);
     require_begun();
     if (which >= worlds_.all().size())
       throw Error(Errc::usage, "drawing", fmt::format("there is no world {}", which));
@@ -203,6 +231,7 @@ class PyWorlds {
     if (!begun_) throw Error(Errc::usage, "worlds", "call reset() first");
   }
 
+  Exclusive exclusive_{"Worlds"};
   Raised raised_;
   Worlds worlds_;
   bool begun_ = false;
@@ -225,12 +254,13 @@ void bind_worlds(py::module_& m) {
       "Many simulations of a scenario that are stepped together, on all cores.\n\n"
       "scene, set, duration : as of Simulation\nnumber : int\nthreads : int, 0: all\n"
       "action : \"field\", two numbers from -1 to 1 along which the cells swim, or \"currents\", one\n"
-      "    number from -1 to 1 for each coil\nstrength : field units of a field action of length 1")
+      "    number from -1 to 1 for each coil\nstrength : field units of a field action of length 1\n"
+      "noise_px : standard deviation of the noise of the observed centroid")
       .def(py::init<const py::object&, std::size_t, unsigned, const py::object&, const py::object&,
-                    const std::string&, double>(),
+                    const std::string&, double, double>(),
            py::arg("scene"), py::arg("number"), py::kw_only(), py::arg("threads") = 0,
            py::arg("set") = py::none(), py::arg("duration") = py::none(), py::arg("action") = "field",
-           py::arg("strength") = 5.0)
+           py::arg("strength") = 5.0, py::arg("noise_px") = 0.0)
       .def("reset", &PyWorlds::reset, py::arg("which"), py::arg("seeds"), py::arg("sets"),
            "Starts worlds again, each with a seed and a dict of changes of the scenario.")
       .def("step", &PyWorlds::step, py::arg("actions"),
@@ -242,39 +272,31 @@ void bind_worlds(py::module_& m) {
           "outputs", [](const PyWorlds& w) { return w.worlds().outputs(); }, "int: size of an action")
       .def("observations", &PyWorlds::observations,
            "float32 array (worlds, inputs): estimated centroid (2), setpoint (2), velocity (2), standard\n"
-           "deviations (2), 1 with visible cells, previous currents; lengths in units of half the view's height.")
+           "deviations (2), 1 with visible cells, previous currents; lengths in units of half the view's "
+           "height.")
       .def(
-          "true_centroids",
-          [](const PyWorlds& w) {
-            return w.vectors([](const W& one) { return true_centroid(one.simulation->world().state()); });
-          },
+          "true_centroids", [](PyWorlds& w) { return w.vectors([](const W& one) { return one.centroid; }); },
           "float array (worlds, 2): m, world frame")
       .def(
           "true_radii",
-          [](const PyWorlds& w) {
-            return w.numbers<double>(
-                [](const W& one) { return true_radius(one.simulation->world().state()); });
-          },
+          [](PyWorlds& w) { return w.numbers<double>([](const W& one) { return one.radius; }); },
           "float array (worlds,): root-mean-square distance of the cells from their centroid, m")
       .def(
           "setpoints",
-          [](const PyWorlds& w) { return w.vectors([](const W& one) { return one.cycle.target.position; }); },
+          [](PyWorlds& w) { return w.vectors([](const W& one) { return one.cycle.target.position; }); },
           "float array (worlds, 2): m, world frame")
       .def(
           "setpoint_indices",
-          [](const PyWorlds& w) {
+          [](PyWorlds& w) {
             return w.numbers<std::int64_t>([](const W& one) { return one.cycle.target.index; });
           },
           "int array (worlds,): index of the setpoint on a route")
       .def(
           "routes_finished",
-          [](const PyWorlds& w) {
-            return w.numbers<bool>([](const W& one) { return one.cycle.target.finished; });
-          },
+          [](PyWorlds& w) { return w.numbers<bool>([](const W& one) { return one.cycle.target.finished; }); },
           "bool array (worlds,): whether the end of the route is reached")
       .def(
-          "finished",
-          [](const PyWorlds& w) { return w.numbers<bool>([](const W& one) { return one.finished; }); },
+          "finished", [](PyWorlds& w) { return w.numbers<bool>([](const W& one) { return one.finished; }); },
           "bool array (worlds,): whether all frames of the scenario are simulated")
       .def_property_readonly(
           "half_height",
@@ -283,8 +305,7 @@ void bind_worlds(py::module_& m) {
       .def("drawing", &PyWorlds::drawing, py::arg("world"),
            "The schematic picture of the lab, uint8 array (height, width, 3).");
   m.def("policy_input", policy_input, py::arg("context"), py::arg("estimate"), py::arg("target"),
-        py::arg("last"),
-        "The observation of Worlds for a controller; `last`: previous currents, A.");
+        py::arg("last"), "The observation of Worlds for a controller; `last`: previous currents, A.");
 }
 
 }  // namespace faba::python

@@ -1,6 +1,5 @@
-"""Controllers in Python on a simulated bench, behind the guard: the coils are without current whatever happens."""
+"""Controllers in Python on a simulated bench, behind the guard. The log of `faba rig simulate` has the true currents."""
 
-import os
 import pathlib
 import signal
 import subprocess
@@ -10,112 +9,157 @@ import textwrap
 import time
 import unittest
 
-from common import SCENES, main
+import numpy as np
+from common import PROGRAM, main
 
 import faba
 
-SETTINGS = {"record.lossless": True}
-# s; the guard de-energises after its command deadline, and its log is written at the next report.
-BOUND = 0.5
+SCENE = """
+duration = "20 s"
+seed = 1
+camera = { rate = "30 Hz", sensor = "frames" }
+limits = { max_current = "0.4 A" }
+arena = { type = "box", size_px = [160, 120] }
+[[swarm]]
+count = 30
+model = { type = "dipole", preset = "IT-1" }
+[rig]
+camera = { type = "simulated", at = "AT" }
+driver = { type = "simulated", at = "AT" }
+camera_timeout = "5 s"
+guard = { heartbeat_deadline = "0.4 s", command_deadline = "0.4 s" }
+"""
+# s, from the event to the last current: the deadlines above, which are long because other tests run meanwhile, and as
+# much again. tests/e2e/bench_safety_test.cpp measures the guard with its own deadlines.
+BOUND = 0.8
 
 
 class Steady(faba.Controller):
+    """The same current in all coils. Derived classes do something wrong after 0.7 s."""
+
+    def start(self):
+        self.wrong_at = None
+
+    def wrong(self):
+        return None
+
     def update(self, estimate, target, dt):
-        return [0.1] * self.context.coils
+        if estimate.t > 0.7:
+            if self.wrong_at is None:
+                self.wrong_at = time.monotonic()
+            wrong = self.wrong()
+            if wrong is not None:
+                return wrong
+        return [0.2] * self.context.coils
 
+    def state(self):
+        return {}
 
-def log_of(run):
-    """Rows (t, currents) of the log of the guard."""
-    rows = (pathlib.Path(run) / "coils.csv").read_text().splitlines()
-    return rows[0].split(","), [row.split(",") for row in rows[1:]]
-
-
-def last_currents(run):
-    header, rows = log_of(run)
-    columns = [i for i, name in enumerate(header) if name.endswith("_a") and "sensed" not in name]
-    return [float(rows[-1][i] or 0) for i in columns]
+    def restore(self, state):
+        pass
 
 
 class OnBench(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
-        self.out = pathlib.Path(self.folder.name) / "run"
+        self.path = pathlib.Path(self.folder.name)
+        self.out = self.path / "run"
         self.addCleanup(self.folder.cleanup)
+        self.scene = self.path / "scene.toml"
+        self.scene.write_text(SCENE.replace("AT", str(self.path / "bench")))
+        self.bench = subprocess.Popen([PROGRAM, "rig", "simulate", str(self.scene), "--at", str(self.path / "bench"), "--log",
+                                       str(self.path / "coils.csv"), "--quiet"])
+        self.addCleanup(self.bench.wait)
+        self.addCleanup(self.bench.terminate)
+        while not (self.path / "bench").exists():
+            time.sleep(0.01)
 
-    def run_it(self, controller, duration="2 s"):
-        return faba.bench(SCENES / "bench.toml", arm=True, controller=controller, out=self.out, duration=duration, set=SETTINGS)
+    def run_it(self, controller, duration="1.5 s", **more):
+        return faba.bench(self.scene, arm=True, controller=controller, out=self.out, duration=duration, **more)
 
-    def test_a_controller_steers_the_bench_and_is_replayed(self):
-        run = self.run_it(Steady())
+    def log(self):
+        """Times, s, and the largest current of the coils, A, for each row of the log."""
+        lines = (self.path / "coils.csv").read_text().splitlines()
+        columns = lines[0].count(",") + 1
+        rows = np.array([[float(v) for v in line.split(",")] for line in lines[1:] if line.count(",") + 1 == columns])
+        coils = (columns - 3) // 2
+        return rows[:, 0], np.abs(rows[:, 3 + coils:]).max(axis=1)
+
+    def assert_off(self, since):
+        """No current later than BOUND after `since`, and some before."""
+        time.sleep(BOUND + 0.2)
+        t, current = self.log()
+        self.assertTrue(np.any(current[t < since] > 0.1), "there was current before")
+        flowing = t[(current > 5e-3) & (t > since)]  # 5 mA: 1 % of full scale
+        self.assertLess(flowing.max(initial=since) - since, BOUND)
+
+    def test_a_run_is_recorded_and_replayed(self):
+        run = self.run_it(Steady(), set={"record.lossless": True})
         self.assertTrue(run.complete)
-        self.assertGreater(len(run.series), 50)
-        self.assertEqual(set(last_currents(self.out)), {0.0})
-        replayed = faba.replay(self.out, controller=Steady())
-        self.assertTrue(replayed["same"], replayed)
+        self.assertGreater(len(run.series), 20)
+        self.assert_off(time.monotonic())
+        self.assertTrue(faba.replay(self.out, controller=Steady())["same"])
 
     def test_the_coils_stay_disarmed_without_permission(self):
         with self.assertRaises(faba.Error) as caught:
-            faba.bench(SCENES / "bench.toml", controller=Steady(), out=self.out)
+            faba.bench(self.scene, controller=Steady(), out=self.out)
         self.assertIn("arm=True", caught.exception.what)
         self.assertFalse(self.out.exists())
 
     def test_an_exception_switches_off(self):
         class Fails(Steady):
-            def update(self, estimate, target, dt):
-                if estimate.t > 1:
-                    raise ZeroDivisionError("on the bench")
-                return super().update(estimate, target, dt)
+            def wrong(self):
+                raise ZeroDivisionError("on the bench")
 
+        controller = Fails()
         with self.assertRaises(ZeroDivisionError):
-            self.run_it(Fails())
+            self.run_it(controller)
         self.assertTrue((self.out / "incomplete").exists())
-        self.assertEqual(set(last_currents(self.out)), {0.0})
+        self.assert_off(controller.wrong_at)
 
     def test_nan_switches_off(self):
         class Nan(Steady):
-            def update(self, estimate, target, dt):
-                return [float("nan")] * self.context.coils if estimate.t > 1 else super().update(estimate, target, dt)
+            def wrong(self):
+                return [float("nan")] * self.context.coils
 
+        controller = Nan()
         with self.assertRaises(faba.Error):
-            self.run_it(Nan())
+            self.run_it(controller)
         self.assertTrue((self.out / "incomplete").exists())
-        self.assertEqual(set(last_currents(self.out)), {0.0})
+        self.assert_off(controller.wrong_at)
 
     def test_blocking_for_a_second_switches_off_meanwhile(self):
         class Blocks(Steady):
-            def update(self, estimate, target, dt):
-                if estimate.t > 1 and not self.blocked:
-                    self.blocked = True
+            def wrong(self):
+                if time.monotonic() - self.wrong_at < 1:
                     time.sleep(1)
-                return super().update(estimate, target, dt)
 
-            def start(self):
-                self.blocked = False
-
-        try:
-            run = self.run_it(Blocks(), duration="3 s")
-            self.assertGreater(run.manifest["command_timeouts"], 0)
-        except faba.Error as e:  # a guard that trips ends the run
-            self.assertEqual(e.code, 4)
-        self.assertEqual(set(last_currents(self.out)), {0.0})
+        controller = Blocks()
+        with self.assertRaises(faba.Error) as caught:
+            self.run_it(controller, duration="4 s")
+        self.assertEqual(caught.exception.code, 4)
+        t, current = self.log()  # a row for each change
+        self.assertGreater(current[t < controller.wrong_at][-1], 0.1)
+        self.assertLess(current[t < controller.wrong_at + 0.9][-1], 5e-3)
+        self.assertTrue((self.out / "incomplete").exists())
 
     def test_kill_9_switches_off(self):
         code = textwrap.dedent(f"""
             import sys; sys.path.insert(0, {str(pathlib.Path(__file__).parent)!r})
             from bench_test import Steady
             import faba
-            faba.bench({str(SCENES / "bench.toml")!r}, arm=True, controller=Steady(), out={str(self.out)!r}, duration="60 s",
-                       progress=lambda done, total: print(done, flush=True))
+            faba.bench({str(self.scene)!r}, arm=True, controller=Steady(), out={str(self.out)!r})
         """)
-        p = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
-        while float(p.stdout.readline()) < 1000:
-            pass
+        p = subprocess.Popen([sys.executable, "-c", code])
+        deadline = time.monotonic() + 20
+        while time.monotonic() < deadline:
+            time.sleep(0.1)
+            if (self.path / "coils.csv").stat().st_size and self.log()[1][-1] > 0.1:
+                break
+        killed = time.monotonic()
         p.send_signal(signal.SIGKILL)
         p.wait()
-        deadline = time.monotonic() + 10
-        while time.monotonic() < deadline and set(last_currents(self.out)) != {0.0}:
-            time.sleep(0.05)
-        self.assertEqual(set(last_currents(self.out)), {0.0})
+        self.assert_off(killed)
         self.assertTrue((self.out / "incomplete").exists())
 
 

@@ -4,7 +4,11 @@ All quantities are in SI units unless a name says otherwise (`_px`, `um_per_px`)
 `code`, `where` and `what`. The guide is docs/guide/python.md.
 """
 
-from ._faba import (
+from ._faba import require_main_interpreter as _require_main_interpreter
+
+_require_main_interpreter()
+
+from ._faba import (  # noqa: E402
     Context,
     Drift,
     Error,

@@ -26,20 +26,28 @@ def register() -> None:
 class _AfterImport(importlib.abc.MetaPathFinder):
     """Calls register() at the end of the first import of Gymnasium."""
 
+    def __init__(self) -> None:
+        self._searching = False
+
     def find_spec(
         self, name: str, path: Sequence[str] | None, target: types.ModuleType | None = None
     ) -> importlib.machinery.ModuleSpec | None:
-        if name != "gymnasium":
+        if name != "gymnasium" or self._searching:
             return None
-        sys.meta_path.remove(self)
-        spec = importlib.util.find_spec(name)
+        self._searching = True  # the other finders are asked
+        try:
+            spec = importlib.util.find_spec(name)
+        finally:
+            self._searching = False
         if spec is None or spec.loader is None:
             return spec
         execute = spec.loader.exec_module
 
         def execute_and_register(module: types.ModuleType) -> None:
             execute(module)
-            register()
+            if self in sys.meta_path:
+                sys.meta_path.remove(self)
+                register()
 
         spec.loader.exec_module = execute_and_register  # type: ignore[method-assign]
         return spec
