@@ -9,7 +9,7 @@ packages=(g++ cmake ninja-build ccache pkg-config libfmt-dev nlohmann-json3-dev 
 for what in "$@"; do
   case $what in
     test)
-      packages+=(doctest-dev python3 python3-numpy python3-h5py chromium)
+      packages+=(doctest-dev python3 python3-numpy python3-h5py python3-xarray python3-h5netcdf python3-tifffile chromium)
       # Node may be installed without a Debian package.
       command -v node > /dev/null || packages+=(nodejs)
       command -v npm > /dev/null || packages+=(npm)
