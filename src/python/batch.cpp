@@ -128,7 +128,7 @@ class Batch {
 
   Result result(const ParameterSet& set, std::uint64_t seed) {
     Document d = scene_;
-    for (const auto& [path, value] : set) set_value(d, path, value);
+    for (const auto& [path, value] : set) set_value(d, path, value, "parameters");
     d.set("seed", Json(seed), "seeds");
     Scenario s = read_scenario_with(std::move(d), parts_);
     if (statistic_.function) return {{}, of_function(std::move(s))};
@@ -243,7 +243,8 @@ void bind_batch(py::module_& m) {
       "scene : path, TOML text or dict\n"
       "parameters : dict from paths such as \"swarm[0].model.speed\" to a sequence of values in SI units or\n"
       "    texts with a unit, one for each set; a single value belongs to all sets\n"
-      "seeds : int or sequence of int\n"
+      "seeds : int or sequence of int: the seeds themselves, not their number; range(20) gives twenty "
+      "trials\n"
       "statistic : name of a metric such as \"steady_rms_px\", a list of names, or a function of the "
       "finished\n"
       "    Simulation, called by several threads in turn\n"

@@ -97,7 +97,7 @@ void Worlds::reset(const std::vector<std::size_t>& which, const std::vector<std:
                    const std::vector<std::vector<std::pair<std::string, Json>>>& sets) {
   pool_.run_uneven(which.size(), [&](std::size_t k) {
     Document d = scene_;
-    for (const auto& [path, value] : sets[k]) set_value(d, path, value);
+    for (const auto& [path, value] : sets[k]) set_value(d, path, value, "sets");
     d.set("seed", Json(seeds[k]), "seed");
     World w;  // replaces the former one when it is complete
     w.pool = std::make_unique<Pool>(1);

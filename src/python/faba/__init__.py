@@ -32,7 +32,7 @@ from . import study
 from ._program import Measurement
 from ._register import register_lazily as _register_lazily
 from .control import Controller, Estimator, Reference
-from .measure import activity, calibrate, compare, drop, identify, moment, optics, scale, track
+from .measure import activity, calibrate, compare, drop, field_fit, identify, moment, optics, scale, track
 from .recorded import Run, bench, replay, resume, run
 
 field = Field
@@ -65,6 +65,7 @@ __all__ = [
     "distance",
     "drop",
     "field",
+    "field_fit",
     "flow",
     "identify",
     "moment",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 import pathlib
 import subprocess
@@ -81,8 +82,7 @@ def _compute(
     client: Any, directory: pathlib.Path, numbers: list[int], chunks: int, progress: Optional[Callable[[int, int], None]]
 ) -> str:
     """Computes tasks; returns the last message of a worker that failed, or an empty text."""
-    from distributed import as_completed
-
+    distributed: Any = importlib.import_module("distributed")
     workers = max(1, sum(client.nthreads().values()))
     parts = min(len(numbers), max(1, chunks) * workers)
     pieces = [numbers[i::parts] for i in range(parts)]
@@ -95,7 +95,7 @@ def _compute(
         for i, piece in enumerate(pieces)
     }
     message, done = "", 0
-    for future in as_completed(futures):
+    for future in distributed.as_completed(futures):
         done += futures[future]
         message = str(future.result()) or message if future.status == "finished" else str(future.exception())
         if progress:
