@@ -11,11 +11,11 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _faba, _program
+from ._progress import Progress, reporter
 from .control import Controller, Estimator, Reference
 
 Scene = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 Part = Union[None, str, Mapping[str, Any], Controller, Estimator, Reference, type]
-Progress = Optional[Callable[[int, int], None]]
 
 
 class Run:
@@ -128,14 +128,14 @@ def run(scene: Scene, *, out: str | os.PathLike[str] | None = None, seed: int | 
     threads : int, 0: all; does not change the result
     force : replace an earlier run in the directory
     as_seen : record videos as the camera sees them, not drawings
-    progress : function of the number of frames done and their total, called ten times per second
+    progress : function of the number of frames done and their total, called ten times per second; None: a bar in a terminal, False: nothing
 
     Returns the Run. An exception of a part in Python ends the run; its directory stays incomplete. Ctrl-C stops it with a checkpoint, from
     which resume() continues. An object that is given as a part keeps its attributes for the next run: initialise them in start(), or give
     the class. Raises faba.Error.
     """
     return Run(_faba.run_scene(scene, out=out, seed=seed, set=set, duration=duration, controller=controller, estimator=estimator,
-                               reference=reference, threads=threads, force=force, as_seen=as_seen, progress=progress))
+                               reference=reference, threads=threads, force=force, as_seen=as_seen, progress=reporter(progress, "simulating")))
 
 
 def resume(directory: str | os.PathLike[str], *, controller: Part = None, estimator: Part = None, reference: Part = None, threads: int = 0,
@@ -148,7 +148,7 @@ def resume(directory: str | os.PathLike[str], *, controller: Part = None, estima
     threads, progress : as of run()
     """
     _faba.resume_run(os.fspath(directory), controller=controller, estimator=estimator, reference=reference, threads=threads,
-                     progress=progress)
+                     progress=reporter(progress, "simulating"))
     return Run(directory)
 
 
@@ -165,7 +165,7 @@ def bench(scene: Scene, *, arm: bool = False, out: str | os.PathLike[str] | None
     or guard.
     """
     return Run(_faba.bench_run(scene, arm=arm, out=out, seed=seed, set=set, duration=duration, controller=controller,
-                               estimator=estimator, reference=reference, force=force, progress=progress))
+                               estimator=estimator, reference=reference, force=force, progress=reporter(progress, "bench")))
 
 
 def replay(directory: str | os.PathLike[str], *, controller: Part = None, estimator: Part = None, reference: Part = None) -> dict[str, Any]:

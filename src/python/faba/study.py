@@ -10,6 +10,7 @@ import time
 from typing import Any, Callable, Optional
 
 from . import _program
+from ._progress import Progress, reporter
 
 
 def _work(program: str, directory: str, tasks: str, results: str) -> str:
@@ -50,7 +51,7 @@ def run(
     client: Any,
     out: str | os.PathLike[str] | None = None,
     chunks_per_worker: int = 4,
-    progress: Optional[Callable[[int, int], None]] = None,
+    progress: Progress = None,
 ) -> pathlib.Path:
     """Computes a study on the workers of a client: identify, calibrate or compare-controllers.
 
@@ -70,7 +71,7 @@ def run(
     while int(plan.get("open", 0)) > 0:
         numbers = _numbers(str(plan["tasks"]))
         before = len(numbers)
-        message = _compute(client, directory, numbers, chunks_per_worker, progress)
+        message = _compute(client, directory, numbers, chunks_per_worker, reporter(progress, "tasks"))
         plan = _program.call(["study", "collect"], [("dir", str(directory))], codes=(0, 10))
         failures = failures + 1 if message and int(plan.get("open", 0)) >= before else 0
         if failures == 2:
