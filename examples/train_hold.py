@@ -21,11 +21,11 @@ from hold_policy import Memory
 
 import faba  # noqa: F401, registers the environments
 
-WORLDS, STEPS = 64, 64  # in a batch: worlds, and frames of each
-EPOCHS, PARTS = 6, 4  # of the optimisation with a batch
-DISCOUNT, TRACE, CLIP = 0.99, 0.95, 0.2  # gamma, lambda of the advantage, limit of the ratio of probabilities
-RATE, NOISE = 1e-3, 0.5  # first learning rate, first standard deviation of the actions
-PIXEL = 1 / 240  # of the reward and of the observations, whose unit is half the height of the view
+WORLDS, FRAMES = 64, 300  # a batch is an episode of 5 s in each world
+EPOCHS, PARTS = 10, 12  # of the optimisation with a batch
+DISCOUNT, TRACE, CLIP = 0.98, 0.95, 0.2  # gamma, lambda of the advantage, limit of the ratio of probabilities
+RATE, NOISE, SCALE = 5e-4, 0.5, 0.1  # first learning rate, first standard deviation of the actions, scale of the rewards
+PIXEL = 1 / 240  # of the rewards and observations, whose unit is half the height of the view
 
 
 def moment(generator):
@@ -38,7 +38,7 @@ def make_worlds():
 
     randomise = {**HoldVectorEnv.task.random, "swarm[0].model.moment": moment, "camera.delay_frames": lambda g: int(g.integers(4))}
     # The policy sees the mean of the cells only: fewer of them are faster.
-    return gymnasium.make_vec("faba/Hold-v0", num_envs=WORLDS, randomise=randomise, duration="6 s", set={"swarm[0].count": 100})
+    return gymnasium.make_vec("faba/Hold-v0", num_envs=WORLDS, randomise=randomise, duration=FRAMES / 60, set={"swarm[0].count": 60})
 
 
 def network(outputs, last):
@@ -77,71 +77,59 @@ class Agent:
         np.savez(path, **weights, **{f"bias{i}": layer.bias.detach().numpy() for i, layer in enumerate(linear)})
 
 
-class Worlds:
-    """The worlds, what the policy remembers of them, and the batches that they give."""
+def play(agent, worlds, seed=None):
+    """An episode in each world: inputs, actions, logarithms of their probabilities, advantages, returns; and the mean distance, px."""
+    names = ("inputs", "actions", "log_p", "rewards", "values")
+    rows = {name: [] for name in names}
+    memory = Memory(WORLDS)
+    observations, _ = worlds.reset(seed=seed)
+    with torch.no_grad():
+        inputs = torch.from_numpy(memory.see(observations, True))
+        for _ in range(FRAMES):
+            distribution = agent.actions(inputs)
+            actions = distribution.sample()
+            memory.act(actions.numpy())
+            observations, rewards, *_ = worlds.step(actions.numpy())
+            for name, one in zip(names, (inputs, actions, distribution.log_prob(actions).sum(1), torch.from_numpy(rewards).float(),
+                                         agent.value(inputs)[:, 0])):
+                rows[name].append(one)
+            inputs = torch.from_numpy(memory.see(observations))
+        r = {name: torch.stack(row) for name, row in rows.items()}
+        # The environment gives minus the distance. With its square root, small distances matter as well.
+        advantages = estimate(-SCALE * (-r["rewards"]).sqrt(), r["values"], agent.value(inputs)[:, 0])
+    batch = [r["inputs"], r["actions"], r["log_p"], advantages, advantages + r["values"]]
+    return [one.flatten(0, 1) for one in batch], float(-r["rewards"].mean()) / PIXEL
 
-    def __init__(self, seed):
-        self.envs = make_worlds()
-        observations, _ = self.envs.reset(seed=seed)
-        self.memory = Memory(WORLDS)
-        self.inputs = torch.from_numpy(self.memory.see(observations, True))
-        self.ended = np.zeros(WORLDS, dtype=bool)
 
-    def batch(self, agent):
-        """Inputs, actions, logarithms of their probabilities, advantages, returns; and the mean reward of a frame."""
-        rows = {name: [] for name in ("inputs", "actions", "log_p", "rewards", "values", "ended", "unused")}
-        with torch.no_grad():
-            for _ in range(STEPS):
-                distribution = agent.actions(self.inputs)
-                actions = distribution.sample()
-                self.memory.act(actions.numpy())
-                observations, rewards, _, truncated, _ = self.envs.step(actions.numpy())
-                values = agent.value(self.inputs)[:, 0]
-                now = (self.inputs, actions, distribution.log_prob(actions).sum(1), torch.from_numpy(rewards).float(), values,
-                       torch.from_numpy(truncated), torch.from_numpy(self.ended))
-                for row, one in zip(rows.values(), now):
-                    row.append(one)
-                # The step after the last one of an episode starts the next episode; its action is not used.
-                self.inputs = torch.from_numpy(self.memory.see(observations, self.ended))
-                self.ended = truncated
-            r = {name: torch.stack(row) for name, row in rows.items()}
-            advantages = self.advantages(r, agent.value(self.inputs)[:, 0])
-        used = ~r["unused"]
-        batch = [r["inputs"][used], r["actions"][used], r["log_p"][used], advantages[used], (advantages + r["values"])[used]]
-        return batch, float(r["rewards"][used].mean())
-
-    @staticmethod
-    def advantages(r, after):
-        """Generalised advantage estimation; an episode is only truncated, so its value goes on."""
-        advantages, trace = torch.zeros_like(r["values"]), torch.zeros(WORLDS)
-        for t in reversed(range(STEPS)):
-            error = r["rewards"][t] + DISCOUNT * after - r["values"][t]
-            trace = torch.where(r["unused"][t], torch.zeros(()), error + DISCOUNT * TRACE * trace * ~r["ended"][t])
-            advantages[t], after = trace, r["values"][t]
-        return advantages
+def estimate(rewards, values, last):
+    """Generalised advantage estimation; an episode is truncated, so the value `last` of its last state counts."""
+    advantages, trace, after = torch.zeros_like(values), torch.zeros(WORLDS), last
+    for t in reversed(range(FRAMES)):
+        trace = rewards[t] + DISCOUNT * after - values[t] + DISCOUNT * TRACE * trace
+        advantages[t], after = trace, values[t]
+    return advantages
 
 
 def main():
     a = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    a.add_argument("--steps", type=int, default=3_000_000, help="frames of all worlds together, default 3000000")
+    a.add_argument("--frames", type=int, default=3_000_000, help="simulated frames of all worlds together, default 3000000")
     a.add_argument("--seed", type=int, default=1, help="of the worlds and of the weights, default 1")
     a.add_argument("--out", type=pathlib.Path, default=pathlib.Path(__file__).parent, help="folder of the results, default examples")
     o = a.parse_args()
     torch.manual_seed(o.seed)
-    agent, worlds, begun = Agent(), Worlds(o.seed), time.perf_counter()
-    updates = max(1, o.steps // (WORLDS * STEPS))
-    with open(o.out / "hold_learning.csv", "w", newline="") as file:
+    agent, worlds, begun = Agent(), make_worlds(), time.perf_counter()
+    updates = max(1, o.frames // (WORLDS * FRAMES))
+    with open(o.out / "hold_learning.csv", "w", newline="", buffering=1) as file:
         curve = csv.writer(file)
         curve.writerow(["frames", "time_s", "mean_distance_px", "action_sd"])
         for update in range(1, updates + 1):
             agent.optimiser.param_groups[0]["lr"] = RATE * (1 - (update - 1) / updates)
-            batch, reward = worlds.batch(agent)
+            batch, distance = play(agent, worlds, o.seed if update == 1 else None)
             agent.learn(*batch)
             elapsed, sd = time.perf_counter() - begun, float(agent.log_sd.exp().mean())
-            curve.writerow([update * WORLDS * STEPS, f"{elapsed:.1f}", f"{-reward / PIXEL:.2f}", f"{sd:.3f}"])
-            if sys.stderr.isatty() or update % 50 == 0:
-                print(f"{update} of {updates} updates, {elapsed:.0f} s, mean distance {-reward / PIXEL:.1f} px, sd {sd:.3f}", file=sys.stderr, flush=True)
-    agent.save(o.out / "hold_policy.npz")
+            curve.writerow([update * WORLDS * FRAMES, f"{elapsed:.1f}", f"{distance:.2f}", f"{sd:.3f}"])
+            print(f"{update} of {updates} updates, {elapsed:.0f} s, mean distance {distance:.1f} px, sd {sd:.3f}", file=sys.stderr, flush=True)
+            agent.save(o.out / "hold_policy.npz")
 
 
 if __name__ == "__main__":
