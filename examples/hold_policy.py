@@ -22,7 +22,7 @@ class Memory:
     """
 
     ERRORS, ACTIONS = 6, 8
-    INPUTS = 2 * (2 + ERRORS - 1 + ACTIONS)
+    INPUTS = 2 * (3 + ERRORS - 1 + ACTIONS)
 
     def __init__(self, worlds):
         self.errors = np.zeros((worlds, self.ERRORS, 2), np.float32)  # setpoint minus centroid; the latest is the first
@@ -35,8 +35,8 @@ class Memory:
         first = np.broadcast_to(first, len(error))
         self.errors[first] = error[first, np.newaxis]
         self.actions[first] = 0.0
-        moved = 20.0 * (self.errors[:, 1:] - error[:, np.newaxis])
-        parts = [error, np.tanh(8.0 * error), moved.reshape(len(error), -1), self.actions.reshape(len(error), -1)]
+        moved = 40.0 * (self.errors[:, 1:] - error[:, np.newaxis])
+        parts = [2.0 * error, np.tanh(6.0 * error), np.tanh(40.0 * error), moved.reshape(len(error), -1), self.actions.reshape(len(error), -1)]
         return np.concatenate(parts, axis=1)
 
     def act(self, actions):
