@@ -3,7 +3,7 @@ SHELL := /bin/bash
 JOBS ?= $(shell nproc)
 SETUP = tools/setup.sh
 
-.PHONY: run lab page test test-engines setup build bench accuracy reproduce format lint asan tsan dev fuzz docs clean help
+.PHONY: run lab page python test test-engines setup build bench accuracy reproduce format lint asan tsan dev fuzz docs clean help
 
 run: build            ## build the program and run scenes/steer.toml: a swarm is steered along a route
 	@build/faba run scenes/steer.toml --seed 1 --force --out runs/steer
@@ -12,7 +12,7 @@ lab: build            ## open the live lab in a browser: watch, steer and record
 	@build/faba lab $(SCENE)
 
 test:                 ## build and run all tests
-	@$(SETUP) test
+	@$(SETUP) test python
 	@cmake --preset release --log-level=WARNING > /dev/null
 	@cmake --build build -j $(JOBS)
 	@ctest --test-dir build --no-tests=error --output-on-failure -j $(JOBS)
@@ -23,6 +23,11 @@ test-engines: build   ## install Slurm, Dask and GNU parallel, and test studies 
 	@/usr/bin/python3 tests/e2e/study_engines_test.py --program build/faba --kills || \
 	  { code=$$?; [ $$code -eq 77 ] || exit $$code; echo "make test-engines: some checks were SKIPPED; their reasons are above"; }
 
+python:               ## build the Python package: build/python/faba; use it with PYTHONPATH=build/python /usr/bin/python3
+	@$(SETUP) python
+	@cmake --preset release --log-level=WARNING > /dev/null
+	@cmake --build build -j $(JOBS) --target python faba-coil-guard faba-capture
+
 setup:                ## install the packages for building (apt-get; with sudo if not root)
 	@$(SETUP)
 
@@ -31,15 +36,17 @@ build: setup          ## build the program: build/faba
 	@cmake --build build -j $(JOBS) --target faba
 
 bench: build          ## measure speed and compare it with NumPy, Octave and hardware limits; tables in bench/results/
-	@$(SETUP) test bench
+	@$(SETUP) test bench python
 	@tools/page.sh install
-	@cmake --build build -j $(JOBS) --target bench_agents bench_coils bench_video bench_jobs
+	@cmake --preset release --log-level=WARNING > /dev/null
+	@cmake --build build -j $(JOBS) --target bench_agents bench_coils bench_video bench_jobs bench_python python
 	@/usr/bin/python3 bench/agents.py
 	@/usr/bin/python3 bench/coils.py
 	@/usr/bin/python3 bench/video.py
 	@/usr/bin/python3 bench/study.py
 	@/usr/bin/python3 bench/loop.py
 	@/usr/bin/python3 bench/jobs.py
+	@/usr/bin/python3 bench/python.py
 	@$(SETUP) engines
 	@/usr/bin/python3 bench/engines.py
 	@node bench/lab.mjs --program build/faba --root . --out bench/results/lab.md

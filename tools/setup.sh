@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the packages for building Faba on Debian 12, and those for the purposes given as arguments (test, bench, lint,
-# docs, fuzz, engines). Prints the packages that it installs; does nothing if all of them are installed.
+# docs, fuzz, engines, python). Prints the packages that it installs; does nothing if all of them are installed.
 set -euo pipefail
 
 packages=(g++ cmake ninja-build ccache pkg-config libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev
@@ -9,17 +9,21 @@ packages=(g++ cmake ninja-build ccache pkg-config libfmt-dev nlohmann-json3-dev 
 for what in "$@"; do
   case $what in
     test)
-      packages+=(doctest-dev python3 python3-numpy python3-h5py chromium)
+      packages+=(doctest-dev python3 python3-numpy python3-h5py python3-xarray python3-h5netcdf python3-tifffile chromium)
       # Node may be installed without a Debian package.
       command -v node > /dev/null || packages+=(nodejs)
       command -v npm > /dev/null || packages+=(npm)
+      ;;
+    python)
+      packages+=(python3 python3-dev pybind11-dev python3-numpy mypy python3-matplotlib python3-h5py python3-xarray python3-h5netcdf python3-pandas
+        python3-tifffile python3-cloudpickle python3-typing-extensions python3-nbclient python3-nbconvert python3-ipykernel)
       ;;
     bench) packages+=(python3 python3-numpy python3-scipy python3-h5py octave libboost-math-dev ffmpeg hdf5-tools) ;;
     lint) packages+=(clang-format clang-tidy) ;;
     docs) packages+=(python3 ffmpeg) ;;
     fuzz) packages+=(clang libclang-rt-14-dev) ;;
     engines) packages+=(python3 slurmctld slurmd slurm-client munge parallel python3-distributed) ;;
-    *) echo "setup.sh: \"$what\" is not one of test, bench, lint, docs, fuzz, engines" >&2; exit 2 ;;
+    *) echo "setup.sh: \"$what\" is not one of test, bench, lint, docs, fuzz, engines, python" >&2; exit 2 ;;
   esac
 done
 

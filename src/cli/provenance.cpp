@@ -15,11 +15,11 @@ namespace faba::cli {
 namespace {
 
 // Options of all verbs that do not change the result: outputs, and how it is computed or printed.
-constexpr std::array<std::string_view, 24> kWithoutEffect{
-    "--help",       "--json",    "--quiet",     "--threads",  "--force",     "--out",
-    "--report",     "--picture", "--overlay",   "--swarm",    "--per-track", "--stages",
-    "--figures",    "--preview", "--shard",     "--merge",    "--check",     "--engine",
-    "--engine-set", "--workers", "--scheduler", "--sshlogin", "--folder",    "--result"};
+constexpr std::array<std::string_view, 25> kWithoutEffect{
+    "--help",     "--json",    "--quiet",  "--threads",   "--force",      "--out",     "--report",
+    "--picture",  "--overlay", "--swarm",  "--per-track", "--stages",     "--figures", "--preview",
+    "--shard",    "--merge",   "--check",  "--engine",    "--engine-set", "--workers", "--scheduler",
+    "--sshlogin", "--folder",  "--result", "--format"};
 
 }  // namespace
 

@@ -11,6 +11,7 @@ namespace faba::cli {
   X(lab)                 \
   X(drop)                \
   X(track)               \
+  X(convert)             \
   X(flow)                \
   X(activity)            \
   X(moment)              \

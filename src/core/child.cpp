@@ -28,7 +28,8 @@ std::filesystem::path program_file(const std::string& name) {
   std::error_code ec;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", ec);
   if (ec) throw Error(Errc::internal, name, "the folder of this program cannot be read: " + ec.message());
-  return self.parent_path() / name;
+  // A copy of the program with another name starts itself, and no other build in its folder.
+  return name == "faba" ? self : self.parent_path() / name;
 }
 
 void set_program_folder(const std::filesystem::path& path) { folder() = path; }

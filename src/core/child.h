@@ -7,7 +7,8 @@
 namespace faba {
 
 /// Path of one of Faba's programs and modules: "faba", "faba-coil-guard", "faba-capture.so". They are in one
-/// folder: that of this program, unless set_program_folder() names another. Throws Error(internal).
+/// folder: that of this program, unless set_program_folder() names another. "faba" is then this program,
+/// whatever its file is named. Throws Error(internal).
 std::filesystem::path program_file(const std::string& name);
 
 /// For a process that is not one of them, such as a Python interpreter. To be called before other threads

@@ -133,6 +133,15 @@ void OutputFile::append(std::span<const std::uint8_t> piece) {
   size_ += piece.size();
 }
 
+void OutputFile::replace(std::uint64_t at, std::span<const std::uint8_t> piece) {
+  while (!piece.empty()) {
+    const ssize_t written = ::pwrite(descriptor_, piece.data(), piece.size(), static_cast<off_t>(at));
+    if (written < 0 && errno != EINTR) fail("cannot be written", errno);
+    if (written < 0) continue;
+    at += static_cast<std::uint64_t>(written);
+    piece = piece.subspan(static_cast<std::size_t>(written));
+  }
+}
 void OutputFile::append(std::string_view piece) {
   append(std::span(reinterpret_cast<const std::uint8_t*>(piece.data()), piece.size()));
 }

@@ -32,6 +32,8 @@ class OutputFile {
   /// Appends `piece`. If that fails (disk full), truncates the file to its previous size and throws.
   void append(std::span<const std::uint8_t> piece);
   void append(std::string_view piece);
+  /// Replaces bytes that were appended, from the byte `at` on.
+  void replace(std::uint64_t at, std::span<const std::uint8_t> piece);
   /// Returns when everything appended so far is on the disk.
   void sync();
   /// Closes the file; only sync() guarantees that it is on the disk. Closing twice is allowed.

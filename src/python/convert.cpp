@@ -82,6 +82,12 @@ py::object object_of(const Json& value) {
   }
 }
 
+unsigned checked_threads(unsigned threads) {
+  constexpr unsigned kMost = 1024;  // as on the command line
+  if (threads <= kMost) return threads;
+  throw Error(Errc::usage, "threads", fmt::format("{} is not between 0 (all) and {}", threads, kMost));
+}
+
 py::array_t<double> array_of(Vec2 v) {
   py::array_t<double> a(2);
   a.mutable_at(0) = v.x;

@@ -16,6 +16,9 @@ Json json_of(py::handle value, const std::string& where);
 /// The Python object of JSON: dict, list, str, int, float, bool, None.
 py::object object_of(const Json& value);
 
+/// A number of threads; 0: all. Throws Error(usage) for more than 1024.
+unsigned checked_threads(unsigned threads);
+
 /// A vector as an array of two numbers.
 py::array_t<double> array_of(Vec2 v);
 py::array_t<double> array_of(const std::vector<double>& v);

@@ -6,7 +6,8 @@
 #include <cmath>
 
 #include "app/sinks/drawn_swarm.h"
-#include "core/counted.h"
+#include "core/random/distributions.h"
+#include "core/random/draw_blocks.h"
 #include "python/convert.h"
 
 namespace faba::python {
@@ -24,8 +25,7 @@ Vec2 true_centroid(const State& s) {
 }
 
 // Root-mean-square distance of the cells from their centroid, m.
-double true_radius(const State& s) {
-  const Vec2 c = true_centroid(s);
+double true_radius(const State& s, Vec2 c) {
   const auto x = s.agents["x"], y = s.agents["y"];
   double sum = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -61,23 +61,43 @@ Command PolicyOutput::command(const ControlContext& c, Vec2 centroid, const doub
   return command;
 }
 
-Worlds::Worlds(Document scene, std::size_t number, unsigned threads, PolicyOutput output)
+Worlds::Worlds(Document scene, std::size_t number, unsigned threads, PolicyOutput output, double noise_px)
     : scene_(std::move(scene)),
       output_(output),
+      noise_px_(noise_px),
       parts_(builtin_parts()),
       pool_(unsigned(std::min<std::size_t>(number_of_threads(threads), number))),
       worlds_(number) {}
 
-void Worlds::begin(World& w) {
+void Worlds::begin(World& w) const {
   if (!begin_cycle(w.simulation->loop(), w.cycle))
     throw Error(Errc::internal, "worlds", "the camera stopped");
+  look(w);
+}
+
+// What Python gets of a world. Here, because this thread has its cells in the cache.
+void Worlds::look(World& w) const {
+  const ControlContext& c = w.simulation->control();
+  const State& state = w.simulation->world().state();
+  w.input.resize(PolicyInput::size(c));
+  Estimate seen = w.cycle.estimate;
+  if (noise_px_ > 0) {
+    const auto bits = draw(*w.scenario->params.seed, kPolicyDraws, 0, std::uint32_t(w.cycle.seen.frame));
+    const auto noise = [&](std::uint32_t u) {
+      return noise_px_ * c.scale.m_per_px * normal_quantile((double(u) + 0.5) * 0x1p-32);
+    };
+    seen.centroid = seen.centroid + Vec2{noise(bits[0]), noise(bits[1])};
+  }
+  PolicyInput::fill(w.input.data(), c, seen, w.cycle.target, w.simulation->loop().last);
+  w.centroid = true_centroid(state);
+  w.radius = true_radius(state, w.centroid);
 }
 
 void Worlds::reset(const std::vector<std::size_t>& which, const std::vector<std::uint64_t>& seeds,
                    const std::vector<std::vector<std::pair<std::string, Json>>>& sets) {
   pool_.run_uneven(which.size(), [&](std::size_t k) {
     Document d = scene_;
-    for (const auto& [path, value] : sets[k]) set_value(d, path, value);
+    for (const auto& [path, value] : sets[k]) set_value(d, path, value, "sets");
     d.set("seed", Json(seeds[k]), "seed");
     World w;  // replaces the former one when it is complete
     w.pool = std::make_unique<Pool>(1);
@@ -90,13 +110,13 @@ void Worlds::reset(const std::vector<std::size_t>& which, const std::vector<std:
 
 void Worlds::step(const double* actions) {
   const std::size_t n = outputs();
-  pool_.run(worlds_.size(), [&](std::size_t i) {
+  pool_.run_uneven(worlds_.size(), [&](std::size_t i) {
     World& w = worlds_[i];
     if (w.finished) return;
     end_cycle(w.simulation->loop(), w.cycle,
               output_.command(w.simulation->control(), w.cycle.estimate.centroid, actions + i * n));
     w.finished = w.simulation->loop().next == w.scenario->frames();
-    if (!w.finished) begin(w);
+    w.finished ? look(w) : begin(w);
   });
 }
 
@@ -106,9 +126,11 @@ namespace {
 class PyWorlds {
  public:
   PyWorlds(const py::object& scene, std::size_t number, unsigned threads, const py::object& set,
-           const py::object& duration, const std::string& action, double strength)
-      : worlds_(read_document({scene, py::none(), set, duration, {}}), checked(number), threads,
-                {currents(action), strength}) {
+           const py::object& duration, const std::string& action, double strength, double noise_px)
+      : worlds_(read_document({scene, py::none(), set, duration, {}}), checked(number),
+                checked_threads(threads), {currents(action), strength}, noise_px) {
+    if (!(noise_px >= 0 && noise_px < 1e6))
+      throw Error(Errc::usage, "noise_px", fmt::format("{} is not between 0 and 1e6", noise_px));
     exclusive_.threads = worlds_.pool().threads();
   }
 
@@ -131,13 +153,13 @@ class PyWorlds {
         changes[k].emplace_back(name, json_of(value, name));
       }
     raised_.run([&] { worlds_.reset(which, seeds, changes); });
-    begun_ = begun_ || which.size() == worlds_.all().size();
-    if (!begun_) throw Error(Errc::usage, "reset", "the first reset must be of all worlds");
+    started_ = started_ || which.size() == worlds_.all().size();
+    if (!started_) throw Error(Errc::usage, "reset", "the first reset must be of all worlds");
   }
 
   void step(const py::array_t<double, py::array::c_style | py::array::forcecast>& actions) {
     const InUse use(exclusive_);
-    require_begun();
+    require_started();
     const auto n = py::ssize_t(worlds_.all().size()), k = py::ssize_t(worlds_.outputs());
     if (actions.ndim() != 2 || actions.shape(0) != n || actions.shape(1) != k)
       throw Error(Errc::usage, "actions", fmt::format("must have the shape ({}, {})", n, k));
@@ -149,21 +171,18 @@ class PyWorlds {
 
   py::array_t<float> observations() {
     const InUse use(exclusive_);
-    require_begun();
+    require_started();
     const std::size_t n = worlds_.all().size(), k = worlds_.inputs();
     py::array_t<float> a({n, k});
-    for (std::size_t i = 0; i < n; ++i) {
-      const Worlds::World& w = worlds_.all()[i];
-      PolicyInput::fill(a.mutable_data(py::ssize_t(i), 0), w.simulation->control(), w.cycle.estimate,
-                        w.cycle.target, w.simulation->loop().last);
-    }
+    float* to = a.mutable_data();
+    for (const Worlds::World& w : worlds_.all()) to = std::copy(w.input.begin(), w.input.end(), to);
     return a;
   }
 
   template <class Value>
   py::array vectors(Value value) {
     const InUse use(exclusive_);
-    require_begun();
+    require_started();
     py::array_t<double> a({worlds_.all().size(), std::size_t(2)});
     for (std::size_t i = 0; i < worlds_.all().size(); ++i) {
       const Vec2 v = value(worlds_.all()[i]);
@@ -175,7 +194,7 @@ class PyWorlds {
   template <class T, class Value>
   py::array numbers(Value value) {
     const InUse use(exclusive_);
-    require_begun();
+    require_started();
     py::array_t<T> a(py::ssize_t(worlds_.all().size()));
     for (std::size_t i = 0; i < worlds_.all().size(); ++i) a.mutable_at(i) = T(value(worlds_.all()[i]));
     return a;
@@ -183,7 +202,7 @@ class PyWorlds {
 
   py::array drawing(std::size_t which) {
     const InUse use(exclusive_);
-    require_begun();
+    require_started();
     if (which >= worlds_.all().size())
       throw Error(Errc::usage, "drawing", fmt::format("there is no world {}", which));
     const Worlds::World& w = worlds_.all()[which];
@@ -193,7 +212,7 @@ class PyWorlds {
   }
 
   const Worlds& worlds() const {
-    require_begun();
+    require_started();
     return worlds_;
   }
   std::size_t number() const { return worlds_.all().size(); }
@@ -208,14 +227,14 @@ class PyWorlds {
     if (action == "currents" || action == "field") return action == "currents";
     throw Error(Errc::usage, "action", fmt::format("\"{}\" is not field or currents", action));
   }
-  void require_begun() const {
-    if (!begun_) throw Error(Errc::usage, "worlds", "call reset() first");
+  void require_started() const {
+    if (!started_) throw Error(Errc::usage, "worlds", "call reset() first");
   }
 
   Exclusive exclusive_{"Worlds"};
   Raised raised_;
   Worlds worlds_;
-  bool begun_ = false;
+  bool started_ = false;
 };
 
 // The input of a policy that is a controller.
@@ -235,12 +254,13 @@ void bind_worlds(py::module_& m) {
       "Many simulations of a scenario that are stepped together, on all cores.\n\n"
       "scene, set, duration : as of Simulation\nnumber : int\nthreads : int, 0: all\n"
       "action : \"field\", two numbers from -1 to 1 along which the cells swim, or \"currents\", one\n"
-      "    number from -1 to 1 for each coil\nstrength : field units of a field action of length 1")
+      "    number from -1 to 1 for each coil\nstrength : field units of a field action of length 1\n"
+      "noise_px : standard deviation of the noise of the observed centroid")
       .def(py::init<const py::object&, std::size_t, unsigned, const py::object&, const py::object&,
-                    const std::string&, double>(),
+                    const std::string&, double, double>(),
            py::arg("scene"), py::arg("number"), py::kw_only(), py::arg("threads") = 0,
            py::arg("set") = py::none(), py::arg("duration") = py::none(), py::arg("action") = "field",
-           py::arg("strength") = 5.0)
+           py::arg("strength") = 5.0, py::arg("noise_px") = 0.0)
       .def("reset", &PyWorlds::reset, py::arg("which"), py::arg("seeds"), py::arg("sets"),
            "Starts worlds again, each with a seed and a dict of changes of the scenario.")
       .def("step", &PyWorlds::step, py::arg("actions"),
@@ -255,17 +275,11 @@ void bind_worlds(py::module_& m) {
            "deviations (2), 1 with visible cells, previous currents; lengths in units of half the view's "
            "height.")
       .def(
-          "true_centroids",
-          [](PyWorlds& w) {
-            return w.vectors([](const W& one) { return true_centroid(one.simulation->world().state()); });
-          },
+          "true_centroids", [](PyWorlds& w) { return w.vectors([](const W& one) { return one.centroid; }); },
           "float array (worlds, 2): m, world frame")
       .def(
           "true_radii",
-          [](PyWorlds& w) {
-            return w.numbers<double>(
-                [](const W& one) { return true_radius(one.simulation->world().state()); });
-          },
+          [](PyWorlds& w) { return w.numbers<double>([](const W& one) { return one.radius; }); },
           "float array (worlds,): root-mean-square distance of the cells from their centroid, m")
       .def(
           "setpoints",

@@ -31,7 +31,8 @@ struct PolicyOutput {
 /// Many simulations that are stepped together, each by one thread, for reinforcement learning.
 class Worlds {
  public:
-  Worlds(Document scene, std::size_t number, unsigned threads, PolicyOutput output);
+  /// `noise_px`: standard deviation of the noise of the centroid that a policy sees, in x and y.
+  Worlds(Document scene, std::size_t number, unsigned threads, PolicyOutput output, double noise_px);
 
   /// Replaces worlds by new ones; `sets`: changes of the scenario of each.
   void reset(const std::vector<std::size_t>& which, const std::vector<std::uint64_t>& seeds,
@@ -44,7 +45,10 @@ class Worlds {
     std::unique_ptr<Scenario> scenario;
     std::unique_ptr<Simulation> simulation;
     CycleInput cycle;
-    bool finished = false;  ///< all frames of the scenario are simulated
+    bool finished = false;     ///< all frames of the scenario are simulated
+    std::vector<float> input;  ///< of the policy
+    Vec2 centroid;             ///< true, m
+    double radius = 0;         ///< true root-mean-square distance of the cells from it, m
   };
   const std::vector<World>& all() const { return worlds_; }
   std::size_t inputs() const { return PolicyInput::size(worlds_.front().simulation->control()); }
@@ -53,10 +57,12 @@ class Worlds {
   Pool& pool() { return pool_; }
 
  private:
-  void begin(World& w);
+  void begin(World& w) const;
+  void look(World& w) const;
 
   Document scene_;
   PolicyOutput output_;
+  double noise_px_;
   Parts parts_;
   Pool pool_;
   std::vector<World> worlds_;

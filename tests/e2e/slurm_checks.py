@@ -17,6 +17,7 @@ def run(test, kills):
     cluster = slurm_cluster.Cluster(test.folder / "slurm")
     try:
         test.engine("slurm", "--workers", 3)
+        test.interrupt_calibration("slurm", "--workers", 3)
         twice(test)
         settings(test)
         if kills:

@@ -23,12 +23,14 @@ import threading
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
+import dask_checks
+import parallel_checks
 import slurm_checks
 import slurm_cluster
 from engine_studies import CALIBRATION, CONTROLLERS, FILM, IDENTIFY, STEER
 
 OUTPUTS = ("identify.json", "identify.html", "best.toml", "background.png", "calibration.json", "calibration.html", "controllers.json", "controllers.csv", "report.html")
-VERB = {"identify": "identify", "calibration": "calibrate", "controllers": "compare-controllers"}
+VERB = {"identify": "identify", "calibration": "calibrate", "controllers": "compare-controllers"}  # of the studies for all engines
 VIDEOS = ("film/video.avi", "film-2/video.avi", "film-3/video.avi")
 TRACK = ("track", *VIDEOS, "--um-per-px", "1.2", "--out", "tracks.csv", "--report", "tracks.html", "--quiet")
 TIME_LIMIT = 2400  # s, of the complete test: eight times its duration with --kills on two cores
@@ -70,9 +72,13 @@ class Test:
         (self.folder / "controllers.toml").write_text(CONTROLLERS.replace("SEEDS", str(seeds)))
         self.compute("controllers")
 
+    def write_slow(self, seeds, duration):
+        (self.folder / "slow-steer.toml").write_text(STEER.replace("DURATION", duration))
+        (self.folder / "slow.toml").write_text(CONTROLLERS.replace("SEEDS", str(seeds)).replace("steer", "slow-steer"))
+
     def compute(self, study):
         """The study in one process."""
-        done = self.faba(VERB[study], f"{study}.toml", "--quiet", "--force", "--out", f"{study}-one")
+        done = self.faba(VERB.get(study, "compare-controllers"), f"{study}.toml", "--quiet", "--force", "--out", f"{study}-one")
         assert done.returncode == 0, done.stderr
 
     def table(self, out):
@@ -279,6 +285,23 @@ class Test:
         self.check(done.returncode == 0, f"{name}: started again after two kills {done.stderr}")
         self.equal("controllers", out, f"{name}, command killed")
 
+    def interrupt_calibration(self, name, *options):
+        """Ctrl-C after the first new results. The engines do this in turn with one study; complete_calibration() computes the rest."""
+        out = "interrupted"
+        run = self.start("calibrate", "calibration.toml", "--quiet", "--out", out, "--engine", name, *options)
+        self.wait_for_results(run, out, self.size_of_results(out) + 300)  # more than the starts of four files
+        run.send_signal(signal.SIGINT)
+        code, message = run.wait(), run.stderr.read()
+        self.check(code == 130 and "completed results are kept" in message, f"{name}, calibration: interrupted, exit code {code} {message}")
+        self.check(f"--engine {name}" in (self.folder / out / "incomplete").read_text(), f"{name}, calibration: the command that resumes is kept")
+
+    def complete_calibration(self):
+        before = {f: f.read_bytes() for f in (self.folder / "interrupted/results").glob("*.results")}
+        done = self.faba("calibrate", "calibration.toml", "--quiet", "--out", "interrupted")
+        self.check(done.returncode == 0, f"calibration: interrupted on {self.log('interrupted').count('command stopped')} engines, completed {done.stderr}")
+        self.check(all(f.read_bytes() == content for f, content in before.items()), "calibration: the results of the engines are kept")
+        self.equal("calibration", "interrupted", "calibration, interrupted")
+
     def started_by(self, run, out, but):
         """A process that started a worker which has results, none of `but`."""
         while run.poll() is None:
@@ -305,25 +328,6 @@ class Test:
 def ended(log):
     """Number of attempts whose end is in the log."""
     return log.count("left tasks") + log.count(",complete,")
-
-
-SCHEDULER = """import distributed, sys
-cluster = distributed.LocalCluster(n_workers=0, dashboard_address=None, processes=False, protocol="tcp")
-print(cluster.scheduler_address, flush=True)
-sys.stdin.read()
-"""
-
-
-def dask_without_workers(test):
-    scheduler = subprocess.Popen(["/usr/bin/python3", "-c", SCHEDULER], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-    address = scheduler.stdout.readline().strip()
-    run = test.start("compare-controllers", "controllers.toml", "--out", "no-workers", "--engine", "dask", "--scheduler", address)
-    note = run.stderr.readline()
-    test.check(f"the Dask scheduler {address} has no workers" in note, f"dask: {note.strip()}")
-    run.terminate()
-    run.wait()
-    scheduler.stdin.close()
-    scheduler.wait()
 
 
 def limit_time(folder):
@@ -367,14 +371,19 @@ def main():
                 test.skip(f"{name}: {why}")
                 continue
             test.engine(name, *extra)
+            test.interrupt_calibration(name, *extra)
             if name == "dask":
-                dask_without_workers(test)
+                dask_checks.run(test)
+            if name == "parallel":
+                parallel_checks.run(test)
             if options.kills:
                 test.kill_workers(name, *extra)
             if options.kills and name == "parallel":
                 test.kill_calibration(name, *extra)
         if wanted("slurm"):
             slurm_checks.run(test, options.kills)
+        if (test.folder / "interrupted").exists():
+            test.complete_calibration()
     for what in test.failures:
         print("FAILED:", what)
     print(f"{len(test.failures)} failures, {len(test.skipped)} skipped")

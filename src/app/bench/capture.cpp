@@ -13,6 +13,8 @@
 #include "core/monotonic.h"
 #include "rig/bench/camera_feed.h"
 #include "vision/files/frame_encoder.h"
+#include "vision/files/frame_interval.h"
+#include "vision/files/tiff_export.h"
 #include "vision/files/video_writer.h"
 
 namespace faba {
@@ -39,6 +41,10 @@ class Store {
   }
   virtual std::string unfinished_path() const = 0;  ///< location of the pictures before finish()
   std::uint64_t size() const { return at_.size(); }
+  /// The reason of an error, and where the frames are that were recorded before it.
+  std::string kept_frames(const Error& e) const {
+    return fmt::format("{}; {} recorded frames are in {}", e.reason(), size(), unfinished_path());
+  }
 
  protected:
   virtual void write(const Gray8& picture) = 0;
@@ -52,6 +58,8 @@ class VideoStore final : public Store {
  public:
   VideoStore(const CaptureJob& job, const Camera& camera, double rate)
       : Store(job.out.string() + ".csv"),
+        job_(job),
+        rate_(rate),
         out_(job.out),
         writer_(job.out.string() + ".part",
                 job.format == "mp4" ? VideoFormat::mp4 : VideoFormat::lossless_avi, camera.width(),
@@ -65,6 +73,7 @@ class VideoStore final : public Store {
       return;
     }
     Store::finish();
+    if (job_.format == "tif") return write_stack();
     writer_.finish(out_, false, [this](long long i) {
       const auto k = std::size_t(i);
       return k < at_.size() ? at_[k] : 2 * at_.back() - at_[at_.size() > 1 ? at_.size() - 2 : 0];
@@ -73,6 +82,21 @@ class VideoStore final : public Store {
 
  private:
   void write(const Gray8& picture) override { writer_.write(picture); }
+  // During the capture a stack is a lossless video, which a crash leaves readable.
+  void write_stack() {
+    writer_.sync();
+    const std::optional<FrameInterval> interval = frame_interval(at_);
+    VideoReader recorded(unfinished_path(), interval ? 1 / interval->s : rate_);
+    try {
+      export_tiff(recorded, {.out = out_, .um_per_px = job_.um_per_px});
+    } catch (const Error& e) {
+      throw Error(e.code(), e.where(), kept_frames(e));
+    }
+    std::error_code ec;
+    std::filesystem::remove(unfinished_path(), ec);
+  }
+  const CaptureJob& job_;
+  double rate_;  ///< Hz
   std::filesystem::path out_;
   VideoWriter writer_;
 };
@@ -125,7 +149,7 @@ class PictureStore final : public Store {
 std::unique_ptr<Store> store_for(const CaptureJob& job, const Camera& camera) {
   std::error_code ec;
   const bool exists = std::filesystem::exists(job.out, ec);
-  if (job.format == "mp4" || job.format == "avi") {
+  if (job.format == "mp4" || job.format == "avi" || job.format == "tif") {
     if (exists && !job.force)
       throw Error(Errc::usage, job.out.string(),
                   "already exists; choose another --out, or --force to replace it");
@@ -176,6 +200,12 @@ void report_progress(const CaptureJob& job, const Captured& result) {
 }
 
 }  // namespace
+
+std::string capture_format(const std::filesystem::path& out) {
+  if (tiff_kind(out)) return "tif";
+  const std::string extension = out.extension().string();
+  return extension == ".mp4" ? "mp4" : extension == ".avi" ? "avi" : "";
+}
 
 Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job) {
   const std::unique_ptr<Store> store = store_for(job, *camera);
@@ -234,9 +264,7 @@ Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job) {
     f.image.reset();
   }
   if (failure && store->size() > 0)
-    throw Error(failure->code(), failure->where(),
-                fmt::format("{}; {} recorded frames are in {}", failure->reason(), store->size(),
-                            store->unfinished_path()));
+    throw Error(failure->code(), failure->where(), store->kept_frames(*failure));
   store->finish();
   if (failure) throw Error(*failure);
   return result;

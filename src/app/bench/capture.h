@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "rig/camera.h"
@@ -27,21 +28,27 @@ struct CaptureJob {
   double every = 0;           ///< time between kept frames, s; 0: not used
   bool buffered = false;      ///< pictures are kept in memory and written at the end
   bool only_corrupt = false;  ///< only frames that arrived damaged are kept, if the camera still gives them
-  /// mp4 or avi: a video; png, pgm, ppm or tiff: a folder of numbered pictures.
+  /// mp4 or avi: a video; tif: a TIFF stack, of which the metadata are selected by the name of `out` (see
+  /// tiff_kind()); png, pgm, ppm or tiff: a folder of numbered pictures.
   std::string format = "avi";
   std::filesystem::path out;
-  bool force = false;  ///< replace an existing video; a folder must be empty
-  double timeout = 2;  ///< maximum time without a frame, s
+  std::optional<double> um_per_px = {};  ///< scale, for a TIFF stack; empty: not known
+  bool force = false;                    ///< replace an existing video; a folder must be empty
+  double timeout = 2;                    ///< maximum time without a frame, s
   std::function<void(std::uint64_t done, std::uint64_t total)> progress;  ///< total 0: until stopped
   std::function<void(const Captured&)> live;  ///< called after every frame with the counts so far
   const std::atomic<bool>* stop = nullptr;
 };
 
+/// The format of a capture into a single file, by its name; empty if it is the name of a folder of pictures.
+std::string capture_format(const std::filesystem::path& out);
+
 /// Captures until a limit is reached, the camera has no more frames, or `stop` is set. The times of the
-/// frames are written to `out` + ".csv" for a video and to times.csv for pictures. The recorded frames are
-/// kept in any case. During the capture a video has the name `out` + ".part", and a folder of pictures has a
-/// file `incomplete`; both stay if the camera fails or a file cannot be written. Throws Error(usage) for an
-/// unsuitable `out`, Error(device) if the camera fails or exceeds `timeout`, Error(internal) for a full disk.
+/// frames are written to `out` + ".csv" for a video or stack and to times.csv for pictures. The recorded
+/// frames are kept in any case. During the capture a video or stack has the name `out` + ".part", and a
+/// folder of pictures has a file `incomplete`; both stay if the camera fails or a file cannot be written.
+/// Throws Error(usage) for an unsuitable `out`, Error(device) if the camera fails or exceeds `timeout`,
+/// Error(internal) for a full disk.
 Captured capture(const std::shared_ptr<Camera>& camera, const CaptureJob& job);
 
 }  // namespace faba

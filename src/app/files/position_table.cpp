@@ -24,6 +24,8 @@ PositionTable::PositionTable(H5File& file, std::uint64_t cells, std::uint64_t ch
   if (!rounding_) {
     table_ = file.table<float>(kExact, {cells, 2}, chunk_rows, kChunkCells, compress);
     file.attribute(kExact, "axes", std::string("row, cell, (x right, y down); pixel centres are integers"));
+    file.attribute(kExact, "long_name", std::string("position of the cells in the picture"));
+    file.attribute(kExact, "units", std::string("px"));
     return;
   }
   table_ = file.table<std::int16_t>(kRounded, {cells, 2}, chunk_rows, kChunkCells, compress);
@@ -32,6 +34,8 @@ PositionTable::PositionTable(H5File& file, std::uint64_t cells, std::uint64_t ch
       std::string(
           "row, cell, (x right, y down); in rows that are a multiple of rows_per_chunk the position in "
           "units of resolution_px from the origin, in others its change from the row before"));
+  file.attribute(kRounded, "long_name", std::string("position of the cells in the picture, in steps"));
+  file.attribute(kRounded, "units", fmt::format("{:g} px", rounding_->resolution_px));
   file.attribute(kRounded, "resolution_px", rounding_->resolution_px);
   file.attribute(kRounded, "origin_x_px", rounding_->origin_px.x);
   file.attribute(kRounded, "origin_y_px", rounding_->origin_px.y);
@@ -55,6 +59,8 @@ PositionTable::PositionTable(const H5File& file) {
   last_.assign(table_->row_size(), 0);
   steps_.resize(table_->row_size());
 }
+
+const char* PositionTable::name() const { return rounding_ ? kRounded : kExact; }
 
 void PositionTable::append(std::span<const float> xy) {
   if (!rounding_) return table_->append<float>(xy);

@@ -28,6 +28,8 @@ class PositionTable {
   /// The table of an existing file. Throws Error(input).
   explicit PositionTable(const H5File& file);
 
+  /// Name of the table in the file.
+  const char* name() const;
   std::uint64_t rows() const { return table_->rows(); }
   std::uint64_t cells() const { return table_->row_size() / 2; }
   /// x, y of the first cell, x, y of the second, and so on. Throws Error(internal) if a rounded position does

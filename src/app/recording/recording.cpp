@@ -2,7 +2,10 @@
 
 #include <fmt/chrono.h>
 
+#include <cmath>
+
 #include "app/recording/checkpoint.h"
+#include "app/recording/ro_crate.h"
 #include "core/file.h"
 
 namespace faba {
@@ -10,6 +13,10 @@ namespace faba {
 using namespace run_files;
 
 namespace {
+
+std::string iso_date(std::chrono::system_clock::time_point at) {
+  return fmt::format("{:%FT%TZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(at)));
+}
 
 /// Passes the frames of a range to a sink.
 class RecordedPart final : public Sink {
@@ -27,7 +34,9 @@ class RecordedPart final : public Sink {
 }  // namespace
 
 Recording::Recording(RunDirectory directory, const Scenario& scenario, bool resumed)
-    : directory_(std::move(directory)), scenario_hash_(scenario.hash()) {
+    : directory_(std::move(directory)),
+      scenario_hash_(scenario.hash()),
+      inputs_(input_files(scenario.resolved())) {
   if (!resumed) write_file(dir() / kScenario, to_toml(scenario.resolved()));
 }
 
@@ -60,12 +69,17 @@ void Recording::checkpoint(Archive& a) {
 
 void Recording::finish(const Manifest& m, bool keep) {
   for (const auto& s : sinks_) s->finish(keep);
+  manifest_ = m;
   write_file(dir() / kManifest, manifest_json(m).dump(2) + "\n");
 }
 
-std::string Recording::date() const {
-  return fmt::format("{:%FT%TZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(date_)));
+void Recording::complete() {
+  const auto end = date_ + std::chrono::seconds(std::llround(manifest_.wall_time_s));
+  write_file(dir() / kRoCrate, ro_crate(manifest_, dir(), inputs_, iso_date(end)).dump(2) + "\n");
+  directory_.complete();
 }
+
+std::string Recording::date() const { return iso_date(date_); }
 
 double Recording::wall_time() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();

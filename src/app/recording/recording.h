@@ -25,8 +25,9 @@ class Recording {
   void checkpoint(Archive& a);
   /// Completes all files and writes manifest.json. `keep`: keep the files that are needed to resume.
   void finish(const Manifest& m, bool keep);
-  /// To be called after the report is written: the directory is complete, and its marker is removed.
-  void complete() { directory_.complete(); }
+  /// To be called after finish() and after the report is written: the directory is complete. Writes
+  /// ro-crate-metadata.json and removes the marker.
+  void complete();
 
   const std::filesystem::path& dir() const { return directory_.path(); }
   /// series.csv, after finish().
@@ -41,7 +42,9 @@ class Recording {
  private:
   RunDirectory directory_;
   std::string scenario_hash_;
-  SeriesSink* series_ = nullptr;  ///< one of sinks_
+  std::vector<std::string> inputs_;  ///< see input_files()
+  Manifest manifest_;                ///< as written by finish()
+  SeriesSink* series_ = nullptr;     ///< one of sinks_
   std::vector<std::unique_ptr<RunSink>> sinks_;
   std::vector<std::unique_ptr<Sink>> parts_;  ///< pass the recorded frames to sinks_
   std::shared_ptr<const KeptFrames> kept_;

@@ -8,10 +8,10 @@ namespace faba {
 namespace {
 
 using namespace run_files;
-constexpr const char* kRunFiles[] = {kMarker,       kCheckpoint,      kScenario,       kManifest,
-                                     "series.csv",  "tracks.h5",      "tracks.h5.new", "video.mp4.part",
-                                     "video.mp4",   "video.avi.part", "video.avi",     "flow.h5",
-                                     "report.html", kCommands,        kCoilsLog,       "latency.csv"};
+constexpr const char* kRunFiles[] = {
+    kMarker,         kCheckpoint,      kScenario,   kManifest,        "series.csv", "tracks.h5",
+    "tracks.h5.new", "video.mp4.part", "video.mp4", "video.avi.part", "video.avi",  "flow.h5",
+    "report.html",   kRoCrate,         kCommands,   kCoilsLog,        "latency.csv"};
 
 bool holds_run(const std::filesystem::path& dir) {
   std::error_code ec;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "app/files/position_table.h"
 #include "app/sinks/sinks.h"
@@ -38,13 +39,15 @@ class Tracks final : public RunSink {
             H5File::create(keep ? path_.string() + ".new" : path_.string(), c.pool ? c.pool->threads() : 1)) {
     const auto n = std::uint64_t(c.truth->state().agents.size());
     const std::uint64_t rows = std::clamp<std::uint64_t>(kChunkBytes / (8 * n), 1, 64);
-    frame_ = std::make_unique<H5Table>(file_.table<std::uint64_t>("frame", {}, 1024, 1, false));
-    t_ = std::make_unique<H5Table>(file_.table<double>("t_s", {}, 1024, 1, false));
+    // All tables have chunks of the same number of rows, so that they grow together.
+    frame_ = std::make_unique<H5Table>(file_.table<std::uint64_t>("frame", {}, rows, 1, false));
+    t_ = std::make_unique<H5Table>(file_.table<double>("t_s", {}, rows, 1, false));
     position_ = std::make_unique<PositionTable>(file_, n, rows, c.record.compress, rounding_of(c));
     if (c.dose)
       responding_ = std::make_unique<H5Table>(
           file_.table<std::uint8_t>("responding", {n}, rows, 4096, c.record.compress));
     describe();
+    describe_dimensions(n);
     file_.begin_writing();
     if (keep) import_rows(keep);
   }
@@ -99,6 +102,29 @@ class Tracks final : public RunSink {
       file_.attribute("/", fmt::format("swarm_{}_first_cell", k), double(p.begin));
       file_.attribute("/", fmt::format("swarm_{}_cells", k), double(p.end - p.begin));
     }
+  }
+
+  // Names of the dimensions and units, as netCDF programs read them.
+  void describe_dimensions(std::uint64_t cells) {
+    std::vector<std::uint32_t> numbers(cells);
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    file_.column<std::uint32_t>("cell", numbers);
+    file_.column<std::string>("axis", {"x", "y"});
+    const auto describe = [this](const char* table, const char* long_name, const char* units) {
+      file_.attribute(table, "long_name", std::string(long_name));
+      file_.attribute(table, "units", std::string(units));
+    };
+    describe("frame", "number of the frame", "1");
+    describe("t_s", "time", "s");
+    describe("cell", "number of the cell", "1");
+    describe("axis", "x to the right, y down", "1");
+    file_.name_dimensions("t_s", {"frame"});
+    file_.name_dimensions(position_->name(), {"frame", "cell", "axis"});
+    file_.attribute(position_->name(), "coordinates", std::string("t_s"));
+    if (!responding_) return;
+    describe("responding", "1 while the cell responds to the field", "1");
+    file_.name_dimensions("responding", {"frame", "cell"});
+    file_.attribute("responding", "coordinates", std::string("t_s"));
   }
 
   void import_rows(std::uint64_t keep) {

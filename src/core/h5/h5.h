@@ -52,6 +52,14 @@ class H5File {
   H5Table table(const std::string& name) const;
   bool has(const std::string& name) const;
 
+  /// Writes a dataset of fixed length. T: std::uint32_t or std::string.
+  template <class T>
+  void column(const std::string& name, const std::vector<T>& values);
+  /// Attaches the one-dimensional dataset `scale` as HDF5 dimension scale to dimensions of `table`, which
+  /// gives the dimension its name in xarray and netCDF programs: one for each of the first dimensions. Before
+  /// begin_writing().
+  void name_dimensions(const std::string& table, const std::vector<std::string>& scales);
+
   /// `object` is a table's name or "/" for the file.
   void attribute(const std::string& object, const std::string& name, double value);
   void attribute(const std::string& object, const std::string& name, const std::string& value);

@@ -25,7 +25,9 @@ inline constexpr DrawBlock kPixelDraws{Stream::camera, 0};        ///< pixel noi
 inline constexpr DrawBlock kFrameDraws{Stream::camera, 1};        ///< agent: a FrameDraw; step: frame
 inline constexpr DrawBlock kDepthDraws{Stream::camera, 2};        ///< distance of a cell from focus
 inline constexpr DrawBlock kWaveDraws{Stream::camera, 3};         ///< uneven illumination; agent: wave
-inline constexpr DrawBlock kContestDraws{Stream::exclusion, 0};   ///< key of the contests of one step
+inline constexpr DrawBlock kPolicyDraws{Stream::camera,
+                                        4};  ///< noise of the position that a policy sees; step: frame
+inline constexpr DrawBlock kContestDraws{Stream::exclusion, 0};  ///< key of the contests of one step
 
 /// Value used as the agent in kFrameDraws.
 enum class FrameDraw : std::uint32_t {
@@ -35,9 +37,9 @@ enum class FrameDraw : std::uint32_t {
 
 namespace draw_blocks {
 
-inline constexpr std::array kAll{kPositionDraws,  kBirthDraws,    kMotionDraws, kReorientDraws,
-                                 kToleranceDraws, kResponseDraws, kPixelDraws,  kFrameDraws,
-                                 kDepthDraws,     kWaveDraws,     kContestDraws};
+inline constexpr std::array kAll{kPositionDraws,  kBirthDraws,    kMotionDraws,  kReorientDraws,
+                                 kToleranceDraws, kResponseDraws, kPixelDraws,   kFrameDraws,
+                                 kDepthDraws,     kWaveDraws,     kContestDraws, kPolicyDraws};
 
 constexpr bool all_differ() {
   for (std::size_t i = 0; i < kAll.size(); ++i)

@@ -95,8 +95,8 @@ class _Task:
             duration=duration,
             action=self.action if action is None else action,
             strength=strength,
+            noise_px=noise_px,
         )
-        self.noise_px = noise_px
         self.number = number
         # The sizes of observations and actions are known when there are worlds.
         self.worlds.reset(list(range(number)), [0] * number, [{}] * number)
@@ -121,14 +121,9 @@ class _Task:
         self.last_setpoints = self.worlds.setpoint_indices()
         return drawn
 
-    def observations(self, generators: Sequence[np.random.Generator]) -> npt.NDArray[np.float32]:
-        """Of all worlds, with the noise of the position."""
-        result = self.worlds.observations()
-        if self.noise_px > 0:
-            scale = self.noise_px / (_HEIGHT / 2)
-            for i, generator in enumerate(generators):
-                result[i, :2] += generator.normal(0.0, scale, 2).astype(np.float32)
-        return np.clip(result, -10.0, 10.0)
+    def observations(self) -> npt.NDArray[np.float32]:
+        """Of all worlds."""
+        return np.clip(self.worlds.observations(), -10.0, 10.0)
 
     def true_errors(self) -> Floats:
         """Distance of each swarm from its setpoint, in units of half the height of the view."""
@@ -207,13 +202,13 @@ class _Env(gymnasium.Env[npt.NDArray[np.float32], npt.NDArray[np.float32]]):
     ) -> tuple[npt.NDArray[np.float32], dict[str, Any]]:
         super().reset(seed=seed)
         drawn = self._task.start([0], [self.np_random])[0]
-        return self._task.observations([self.np_random])[0], {**self._info(), "randomised": drawn}
+        return self._task.observations()[0], {**self._info(), "randomised": drawn}
 
     def step(
         self, action: npt.NDArray[np.float32]
     ) -> tuple[npt.NDArray[np.float32], float, bool, bool, dict[str, Any]]:
         self._task.worlds.step(np.clip(np.asarray(action, dtype=float), -1.0, 1.0)[np.newaxis])
-        observation = self._task.observations([self.np_random])[0]
+        observation = self._task.observations()[0]
         reward = float(self._task.rewards()[0])
         ended = bool(self._task.ended()[0])
         truncated = bool(self._task.worlds.finished()[0]) and not ended
@@ -289,7 +284,7 @@ class _VectorEnv(gymnasium.vector.VectorEnv[npt.NDArray[np.float32], npt.NDArray
             mask = np.asarray(options["reset_mask"], dtype=np.bool_)
         self._start(np.flatnonzero(mask))
         self._ended[mask] = False
-        return self._task.observations(self._generators), self._task.info()
+        return self._task.observations(), self._task.info()
 
     def step(
         self, actions: npt.NDArray[np.float32]
@@ -302,7 +297,7 @@ class _VectorEnv(gymnasium.vector.VectorEnv[npt.NDArray[np.float32], npt.NDArray
         truncated = self._task.worlds.finished() & ~terminated
         rewards[again] = 0.0
         self._ended = terminated | truncated
-        return self._task.observations(self._generators), rewards, terminated, truncated, self._task.info()
+        return self._task.observations(), rewards, terminated, truncated, self._task.info()
 
     def render(self) -> tuple[Any, ...]:
         return tuple(self._task.worlds.drawing(i) for i in range(self.num_envs))

@@ -37,17 +37,21 @@ bool has_camera_video(const std::filesystem::path& run) {
   return false;
 }
 
-RunVideo run_video(const std::filesystem::path& path) {
+RunVideo video_or_drawing(const std::filesystem::path& path) {
   if (!is_run(path)) return {path, scale_of_file(path)};
   const RunInfo info = read_run_info(path / run_files::kManifest);
-  for (const char* video : kVideos) {
-    if (!std::filesystem::exists(path / video)) continue;
-    if (info.video_shows != "camera")
-      throw Error(Errc::input, path.string(),
-                  "its video is a drawing, not a camera video; record the run with --as-seen");
-    return {path / video, {info.um_per_px, info.um_per_px_source, ""}};
-  }
+  for (const char* video : kVideos)
+    if (std::filesystem::exists(path / video))
+      return {path / video, {info.um_per_px, info.um_per_px_source, ""}, info.video_shows != "camera"};
   throw Error(Errc::input, path.string(), "the run has no video; record it with --as-seen");
+}
+
+RunVideo run_video(const std::filesystem::path& path) {
+  RunVideo video = video_or_drawing(path);
+  if (video.drawing)
+    throw Error(Errc::input, path.string(),
+                "its video is a drawing, not a camera video; record the run with --as-seen");
+  return video;
 }
 
 std::string override_note(const std::filesystem::path& path, const RunVideo& video, double fps,

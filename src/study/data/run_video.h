@@ -10,7 +10,8 @@ namespace faba {
 /// The video of a path: the file itself, or the camera video of a run.
 struct RunVideo {
   std::filesystem::path file;
-  VideoScale scale;  ///< of a run, or in the metadata of the file
+  VideoScale scale;      ///< of a run, or in the metadata of the file
+  bool drawing = false;  ///< the video of a run shows a drawing of the swarm, not what the camera sees
 };
 
 /// Starts to load the libraries for videos in another thread: for a verb that reads a video a little later.
@@ -27,6 +28,8 @@ bool has_camera_video(const std::filesystem::path& run);
 /// with the scale in its metadata.
 /// Throws Error(input, path) for a run without a video, or whose video is a drawing.
 RunVideo run_video(const std::filesystem::path& path);
+/// The same, also for a run whose video is a drawing.
+RunVideo video_or_drawing(const std::filesystem::path& path);
 
 /// Throws Error(input) with the reason unless the file is a video, a picture sequence or a picture that can
 /// be read.

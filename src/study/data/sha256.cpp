@@ -40,6 +40,9 @@ std::string Sha256::hex() {
 }
 
 std::string sha256_of(const std::filesystem::path& file) {
+  std::error_code ec;
+  if (std::filesystem::status(file, ec).type() == std::filesystem::file_type::not_found)
+    throw Error(Errc::input, file.string(), "file not found; check the name");
   std::ifstream in(file, std::ios::binary);
   if (!in || std::filesystem::is_directory(file)) throw Error(Errc::input, file.string(), "cannot be read");
   Sha256 sum;

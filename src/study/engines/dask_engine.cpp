@@ -4,6 +4,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -23,6 +24,7 @@ constexpr const char* kDaskProgram =
 #include "dask_program.inc"
     ;
 constexpr int kStartTimeout = 120000;  // ms
+constexpr const char* kAway = "away";  // line of the program while it is not connected to the scheduler
 
 class DaskEngine final : public Engine {
  public:
@@ -47,7 +49,7 @@ class DaskEngine final : public Engine {
     process_ = start_process(words, {.in = both[0], .out = both[0], .log = log_});
     ::close(both[0]);
     connection_ = both[1];
-    read_slots();
+    wait_for_connection();
   }
   ~DaskEngine() override {
     DaskEngine::cancel();
@@ -59,7 +61,9 @@ class DaskEngine final : public Engine {
   unsigned slots() const override { return slots_; }
   double period_s() const override { return 0.02; }
   std::string trouble() const override {
+    if (away_) return fmt::format("the Dask scheduler {} is not available; waiting for it", scheduler_);
     if (workers_ > 0) return {};
+    if (scheduler_.empty()) return "no worker of Dask runs";
     return fmt::format("the Dask scheduler {} has no workers; start some by: dask worker {}", scheduler_,
                        scheduler_);
   }
@@ -77,11 +81,13 @@ class DaskEngine final : public Engine {
   std::vector<AttemptEnd> ended() override {
     std::vector<AttemptEnd> ends;
     for (std::string line; next_line(line, 0);) {
+      if (read_state(line)) continue;
       std::uint64_t id = 0;
-      int exit = -1;
-      if (std::sscanf(line.c_str(), "workers %u", &workers_) == 1) continue;
-      if (std::sscanf(line.c_str(), "end %lu %d", &id, &exit) != 2 || running_.erase(id) == 0) continue;
-      ends.push_back({id, exit < 0 ? fmt::format("signal {}", -exit) : end_text(exit), exit < 0 ? -1 : exit});
+      int exit = -1, text = 0;
+      if (std::sscanf(line.c_str(), "end %lu %d %n", &id, &exit, &text) != 2 || running_.erase(id) == 0)
+        continue;
+      AttemptEnd& end = ends.emplace_back(AttemptEnd{id, end_text(exit), std::max(-1, exit)});
+      if (text < int(line.size())) end.how = line.substr(text);
     }
     if (over_ && !running_.empty())
       throw Error(
@@ -94,16 +100,26 @@ class DaskEngine final : public Engine {
   void cancel() override { running_.clear(); }
 
  private:
-  void read_slots() {
+  // Whether a line has the state of Dask. Workers can come and go.
+  bool read_state(const std::string& line) {
+    if (line == kAway) return away_ = true;
+    if (std::sscanf(line.c_str(), "workers %u slots %u", &workers_, &slots_) != 2) return false;
+    away_ = false;
+    return true;
+  }
+
+  void wait_for_connection() {
     std::string line;
     while (next_line(line, kStartTimeout))
-      if (std::sscanf(line.c_str(), "slots %u", &slots_) == 1) return;
+      if (read_state(line)) return;
     const std::string message = last_message(log_);
-    throw Error(Errc::internal, "--engine dask",
-                scheduler_.empty()
-                    ? fmt::format("no Dask cluster could be started; see {}", log_.string())
-                    : fmt::format("the Dask scheduler {} was not reached{}; see {}", scheduler_,
-                                  message.empty() ? "" : " (" + message + ")", log_.string()));
+    throw Error(
+        Errc::internal, "--engine dask",
+        scheduler_.empty()
+            ? fmt::format("no Dask cluster could be started; see {}", log_.string())
+            : fmt::format("the Dask scheduler {} was not reached{}; correct the address, or start the "
+                          "scheduler by: dask scheduler. See {}",
+                          scheduler_, message.empty() ? "" : " (" + message + ")", log_.string()));
   }
 
   // The next line of the program; false when no line comes within `timeout` ms.
@@ -133,6 +149,7 @@ class DaskEngine final : public Engine {
   unsigned slots_ = 1, workers_ = 1;
   std::string text_;
   bool over_ = false;
+  bool away_ = false;  ///< the scheduler is not available
   std::set<std::uint64_t> running_;
 };
 

@@ -40,6 +40,12 @@ std::string message_in(const fs::path& log) {
   return first;
 }
 
+// A worker creates its result file before its first task.
+bool started(const Attempt& a) {
+  std::error_code ec;
+  return fs::exists(a.results, ec) || fs::exists(partial_name(a.results), ec);
+}
+
 std::string joined(const std::string& how, const std::string& message) {
   return message.empty() ? how : how + ": " + message;
 }
@@ -204,8 +210,9 @@ void EngineRun::take_left(State& s, const Running& ended, const AttemptEnd& how)
   const std::string name = ended.attempt.results.stem().string(), message = message_in(ended.attempt.log);
   std::vector<std::uint64_t> left;
   const auto failures = s.store.failures(s.key);
-  bool failed = false;           // a task, with a recorded reason
-  bool charged = how.exit == 0;  // the first task without a record is the one that the worker computed
+  bool failed = false;  // a task, with a recorded reason
+  // The first task without a record is the one that the worker computed, if it computed any.
+  bool charged = how.exit == 0 || !started(ended.attempt);
   for (const std::uint64_t task : ended.tasks) {
     if (!s.open[task]) continue;
     const auto recorded = failures.find(task);
@@ -247,8 +254,11 @@ void EngineRun::log_end(State& s, const Running& ended, const AttemptEnd& how,
   log_.add(name, event, number_list(numbers), joined(how.text(), message));
   const bool normal = how.exit == 0 && message.empty();
   if (normal || noted_.size() >= kMostNotes || !noted_.insert(how.how).second) return;
-  reports_.note(fmt::format("attempt {} ended with {}{}", name, joined(how.text(), message),
-                            left.empty() ? "" : "; its tasks are submitted again"));
+  if (how.exit == 0 && left.empty())
+    reports_.note(fmt::format("attempt {} computed its tasks, with the message: {}", name, message));
+  else
+    reports_.note(fmt::format("attempt {} ended with {}{}", name, joined(how.text(), message),
+                              left.empty() ? "" : "; its tasks are submitted again"));
 }
 
 // Throws when other workers would end in the same way.

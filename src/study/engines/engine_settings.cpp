@@ -89,11 +89,12 @@ EngineSettings engine_settings(const std::string& engine, const std::vector<std:
   } else if (engine.ends_with(".toml")) {
     d = read_toml(engine);
   } else {
+    const std::string near = suggestion(engine, {kEngines.begin(), kEngines.end()});
     throw Error(
         Errc::usage, "--engine",
         fmt::format("unknown engine \"{}\"; it must be one of {}, or a TOML file with a table [engine]{}",
                     engine, fmt::join(kEngines, ", "),
-                    suggestion(engine, {kEngines.begin(), kEngines.end()})));
+                    near.starts_with("; did") ? near : "; for another scheduler use `faba study`"));
   }
   for (const std::string& option : options) {
     const auto equals = option.find('=');

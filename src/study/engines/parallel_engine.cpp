@@ -3,9 +3,11 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "core/child.h"
 #include "core/error.h"
@@ -20,6 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr int kSshFailed = 255;  // exit code of ssh when the host is not reached
+constexpr int kNoProgram = 3;    // exit codes of the check of a host
+constexpr int kNoFolder = 4;
+constexpr int kHostTimeout = 30;  // s, of the check
 
 /// One call of GNU parallel with the attempts of one submission.
 struct ParallelCall {
@@ -30,6 +35,40 @@ struct ParallelCall {
   std::vector<std::uint64_t> ids;  ///< of the attempts, in their order
   std::vector<bool> ended;
 };
+
+/// A line of the file that GNU parallel writes for --joblog: a job that ended.
+struct JoblogLine {
+  unsigned long number = 0;  ///< of the job, from 1
+  std::string host;          ///< as given by --sshlogin, without the number of workers
+  int exit = 0, signal = 0;
+  std::string where() const { return host == ":" ? "this computer" : "host " + host; }
+};
+
+// Columns: Seq, Host, Starttime, JobRuntime, Send, Receive, Exitval, Signal, Command.
+std::vector<JoblogLine> lines_of_joblog(const fs::path& file) {
+  std::vector<JoblogLine> lines;
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  while (std::getline(in, line) && !in.eof()) {
+    JoblogLine j;
+    char host[256];
+    if (std::sscanf(line.c_str(), "%lu\t%255[^\t]\t%*s\t%*s\t%*s\t%*s\t%d\t%d", &j.number, host, &j.exit,
+                    &j.signal) != 4)
+      continue;
+    j.host = host;
+    lines.push_back(std::move(j));
+  }
+  return lines;
+}
+
+// What a host has written, of output whose lines start with the name of the host.
+std::string message_of_host(const std::string& output, const std::string& host) {
+  const auto at = ("\n" + output).find("\n" + host + "\t");
+  if (at == std::string::npos) return "";
+  const auto begin = at + host.size() + 1;
+  return output.substr(begin, output.find_first_of("\r\n", begin) - begin);
+}
 
 class ParallelEngine final : public Engine {
  public:
@@ -71,6 +110,7 @@ class ParallelEngine final : public Engine {
     }
     call.ended.resize(attempts.size());
     write_file(call.list, lines);
+    if (!std::exchange(hosts_checked_, true)) check_access(call.list, jobs / (name + "-hosts.joblog"));
     call.process = start_process(words(call.list, call.joblog), {.log = call.log});
     calls_.push_back(std::move(call));
     return true;
@@ -128,6 +168,44 @@ class ParallelEngine final : public Engine {
     }
   }
 
+  // A host that is not reached, or has no Faba, would end one worker after the other. `shared`: a file of
+  // the study that was just written.
+  void check_access(const fs::path& shared, const fs::path& joblog) const {
+    const bool remote = std::ranges::any_of(
+        settings_.hosts, [](const std::string& h) { return h != ":" && !h.ends_with("/:"); });
+    if (!remote) return;
+    std::vector<std::string> w{"parallel", "--no-notice",  "--nonall",
+                               "--tag",    "--timeout",    std::to_string(kHostTimeout),
+                               "--joblog", joblog.string()};
+    for (const std::string& host : settings_.hosts) w.insert(w.end(), {"--sshlogin", host});
+    w.push_back(fmt::format("test -x {} || exit {}; test -r {} || exit {}",
+                            shell_word(worker_.program.string()), kNoProgram, shell_word(shared.string()),
+                            kNoFolder));
+    const CommandOutput answer = run_command(w, true);
+    const std::vector<JoblogLine> hosts = lines_of_joblog(joblog);
+    std::error_code ec;
+    fs::remove(joblog, ec);
+    for (const JoblogLine& j : hosts) {
+      if (j.exit == 0 && j.signal == 0) continue;
+      fs::remove(shared, ec);
+      throw Error(Errc::usage, "--sshlogin",
+                  fmt::format("{} {}; correct or omit it", j.where(),
+                              refusal(j, message_of_host(answer.out, j.host))));
+    }
+  }
+
+  // Why a host cannot compute tasks.
+  std::string refusal(const JoblogLine& j, const std::string& message) const {
+    if (j.exit == kNoProgram)
+      return fmt::format("has no program {}: the same build of Faba must be installed there",
+                         worker_.program.string());
+    if (j.exit == kNoFolder)
+      return fmt::format("cannot read the directory {}: all hosts must mount it at the same place",
+                         worker_.directory.string());
+    const std::string why = message.empty() ? fmt::format("no answer within {} s", kHostTimeout) : message;
+    return fmt::format("was not reached ({}): ssh must work without a password", why);
+  }
+
   // "4/user@host" has four workers; a host without a number has one.
   unsigned slots_of_hosts() const {
     unsigned sum = 0;
@@ -168,32 +246,25 @@ class ParallelEngine final : public Engine {
     if (settings_.workers > 0 || settings_.hosts.empty())
       w.insert(w.end(), {"--jobs", std::to_string(settings_.workers > 0 ? settings_.workers : int(slots_))});
     for (const std::string& host : settings_.hosts) w.insert(w.end(), {"--sshlogin", host});
+    // A host that is lost meanwhile would end the attempts of all others.
+    if (settings_.hosts.size() > 1) w.insert(w.end(), {"--retries", std::to_string(settings_.hosts.size())});
     w.push_back(command);
     return w;
   }
 
-  // Columns: Seq, Host, Starttime, JobRuntime, Send, Receive, Exitval, Signal, Command.
   static void read_joblog(ParallelCall& call, std::vector<AttemptEnd>& ends) {
-    std::ifstream in(call.joblog);
-    std::string line;
-    std::getline(in, line);
-    while (std::getline(in, line) && !in.eof()) {
-      unsigned long number = 0;
-      char host[256];
-      int exit = 0, signal = 0;
-      if (std::sscanf(line.c_str(), "%lu\t%255[^\t]\t%*s\t%*s\t%*s\t%*s\t%d\t%d", &number, host, &exit,
-                      &signal) != 4)
-        continue;
-      if (number < 1 || number > call.ids.size() || call.ended[number - 1]) continue;
-      call.ended[number - 1] = true;
-      ends.push_back({call.ids[number - 1], end_text(signal != 0 ? -signal : exit), signal != 0 ? -1 : exit,
-                      fmt::format("host {}", host), exit == kSshFailed ? message_of(call) : ""});
+    for (const JoblogLine& j : lines_of_joblog(call.joblog)) {
+      if (j.number < 1 || j.number > call.ids.size() || call.ended[j.number - 1]) continue;
+      call.ended[j.number - 1] = true;
+      ends.push_back({call.ids[j.number - 1], end_text(j.signal != 0 ? -j.signal : j.exit),
+                      j.signal != 0 ? -1 : j.exit, j.where(), j.exit == kSshFailed ? message_of(call) : ""});
     }
   }
 
   EngineSettings settings_;
   WorkerCommand worker_;
   unsigned slots_ = 1;
+  bool hosts_checked_ = false;
   std::vector<ParallelCall> calls_;
 };
 

@@ -77,8 +77,10 @@ namespace {
 std::vector<std::string> messages(const std::filesystem::path& log) {
   std::ifstream in(log);
   std::vector<std::string> lines;
-  for (std::string line; std::getline(in, line);)
+  for (std::string line; std::getline(in, line);) {
+    line.erase(line.find_last_not_of("\r ") + 1);  // ssh ends its lines with CR and LF
     if (!line.empty() && line.find("Warning") == std::string::npos) lines.push_back(line);
+  }
   return lines;
 }
 

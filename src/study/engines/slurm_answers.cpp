@@ -113,6 +113,8 @@ std::string refusal(const std::string& answer) {
       if (line.starts_with(prefix)) line.erase(0, prefix.size());
     if (!line.empty()) text += (text.empty() ? "" : "; ") + line;
   }
+  if (contains(text, "configuration source") || contains(text, "slurm.conf"))
+    return fmt::format("sbatch finds no cluster: {}; run the command on a login node of the cluster", text);
   const std::string key = contains(text, "ccount")      ? "account"
                           : contains(text, "partition") ? "partition"
                           : contains(text, "time")      ? "time"

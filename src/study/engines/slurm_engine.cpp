@@ -68,6 +68,7 @@ class SlurmEngine final : public Engine {
     std::string lines;
     for (const Attempt& a : attempts)
       lines += fmt::format("{}\t{}\t{}\n", a.tasks, a.results.string(), a.log.string());
+    files_.insert(files_.end(), {list, script});
     write_file(list, lines);
     write_file(script, script_for(list, attempts.size()));
     write_file(jobs_ / kNameFile, name_ + "\n");
@@ -79,7 +80,6 @@ class SlurmEngine final : public Engine {
     if (answer.exit != 0) return refused(answer.out);
     accepted_ = true;
     trouble_.clear();
-    files_.insert(files_.end(), {list, script});
     std::string job = answer.out.substr(answer.out.find_last_of('\n', answer.out.size() - 2) + 1);
     job = job.substr(0, job.find_first_of(";\n"));
     for (std::size_t k = 1; k <= attempts.size(); ++k)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <set>
 
@@ -22,6 +23,9 @@ constexpr double kSmallestOfThree = 0.15;
 constexpr double kLeastPenalty = 2;          // per parameter, for few tracks: that of Akaike's criterion
 constexpr double kSeparation = 2;            // Ashman's D: two normal distributions have two maxima above it
 constexpr double kLeastLogSpread = 0.05;     // of the logarithm of the speed
+// Width of the bins of the logarithm for the fit: a tenth of the least spread, whose variance they change by
+// 0.1 %.
+constexpr double kBin = 0.1 * kLeastLogSpread;
 constexpr double kStill = 2;                 // localisation errors of a displacement (97.7 %)
 constexpr double kTogether = 0.5;            // mean velocity over speed, of a drift
 constexpr double kLeastDisplacement = 0.02;  // px, of a well resolved spot
@@ -112,6 +116,23 @@ Mixture fitted(const std::vector<Sample>& samples, std::size_t components) {
   return m;
 }
 
+// The samples of each bin together, at their mean: many windows have a few hundred different speeds.
+// `samples` are sorted.
+std::vector<Sample> binned(const std::vector<Sample>& samples) {
+  std::vector<Sample> bins;
+  double end = -std::numeric_limits<double>::infinity();
+  for (const Sample& s : samples) {
+    if (s.log_speed >= end) {
+      bins.push_back({});
+      end = s.log_speed + kBin;
+    }
+    Sample& bin = bins.back();
+    bin.weight += s.weight;
+    if (bin.weight > 0) bin.log_speed += (s.log_speed - bin.log_speed) * s.weight / bin.weight;
+  }
+  return bins;
+}
+
 bool separated(const Mixture& m) {
   for (std::size_t k = 0; k < m.size(); ++k) {
     if (m[k].weight < (m.size() > 2 ? kSmallestOfThree : kSmallest)) return false;
@@ -122,14 +143,15 @@ bool separated(const Mixture& m) {
   return true;
 }
 
-Mixture chosen(const std::vector<Sample>& samples, Pool& pool) {
+Mixture chosen(const std::vector<Sample>& all, Pool& pool) {
+  const std::vector<Sample> samples = binned(all);
   double n = 0;
   for (const Sample& s : samples) n += s.weight;
   const auto criterion = [&](const Mixture& m) {
     return -2 * log_likelihood(samples, m) +
            (3 * double(m.size()) - 1) * std::max(kLeastPenalty, std::log(n));
   };
-  const std::size_t most = std::clamp<std::size_t>(samples.size() / kFewWindows, 1, kMostComponents);
+  const std::size_t most = std::clamp<std::size_t>(all.size() / kFewWindows, 1, kMostComponents);
   std::array<Mixture, kMostComponents> fits;
   pool.run_uneven(most, [&](std::size_t i) { fits[most - 1 - i] = fitted(samples, most - i); });
   Mixture best = fits[0];

@@ -19,13 +19,31 @@ enum class BackgroundKind {
   spatial     ///< smoothing of each frame: keeps stationary objects
 };
 
+/// Format of a table of tracks.
+enum class TrackFormat {
+  automatic,  ///< csv or hdf5, by the extension of the file
+  csv,        ///< `track,frame,t_s,x_px,y_px,mass,snr`
+  hdf5,       ///< a dataset for each of these columns
+  trackmate,  ///< CSV for the importer of TrackMate: `track,frame,t_s,x,y,z,quality`, in um if the scale is
+              ///< known
+  napari      ///< CSV for the tracks layer of napari: `track_id,frame,y,x`, in px
+};
+/// Words for the formats, in their order.
+inline constexpr const char* kTrackFormatWords[] = {"automatic", "csv", "hdf5", "trackmate", "napari"};
+
+/// A file for the tracks.
+struct TrackTable {
+  std::filesystem::path file;
+  TrackFormat format = TrackFormat::automatic;
+};
+
 /// Options of `faba track`. Unspecified values are determined from the video.
 struct TrackOptions {
-  std::filesystem::path video;             ///< anything VideoReader reads, or a run directory
-  VideoPart part;                          ///< frames outside of it are not used
-  unsigned threads = 0;                    ///< 0: all; they do not change the result
-  VideoScale scale;                        ///< given by the user; overrides that of the run or file
-  std::vector<std::filesystem::path> out;  ///< tables of the tracks, .csv or .h5
+  std::filesystem::path video;      ///< anything VideoReader reads, or a run directory
+  VideoPart part;                   ///< frames outside of it are not used
+  unsigned threads = 0;             ///< 0: all; they do not change the result
+  VideoScale scale;                 ///< given by the user; overrides that of the run or file
+  std::vector<TrackTable> out;      ///< tables of the tracks
   std::filesystem::path swarm;      ///< table of position and dispersion of the swarm in each frame, .csv
   std::filesystem::path overlay;    ///< video with the tracks, .mp4 or .avi
   std::filesystem::path report;     ///< page with the figures, .html

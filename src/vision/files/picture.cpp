@@ -13,7 +13,7 @@
 #include "vision/files/av_stream.h"
 #include "vision/files/frame_encoder.h"
 #include "vision/files/input_file.h"
-#include "vision/files/tiff_stack.h"
+#include "vision/files/tiff/tiff_stack.h"
 
 namespace faba {
 namespace {

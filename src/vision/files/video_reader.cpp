@@ -10,7 +10,7 @@
 #include "vision/files/input_file.h"
 #include "vision/files/picture_metadata.h"
 #include "vision/files/picture_sequence.h"
-#include "vision/files/tiff_stack.h"
+#include "vision/files/tiff/tiff_stack.h"
 
 namespace faba {
 

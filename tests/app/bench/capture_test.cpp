@@ -10,6 +10,8 @@
 #include "core/table.h"
 #include "tests/temporary_folder.h"
 #include "vision/files/picture.h"
+#include "vision/files/picture_metadata.h"
+#include "vision/files/tiff/tiff_stack.h"
 #include "vision/files/video_reader.h"
 
 using namespace faba;
@@ -180,4 +182,42 @@ TEST_CASE("existing files are not overwritten") {
   CHECK_THROWS_AS(capture(std::make_shared<TestCamera>(3), into(video, "avi")), Error);
   CHECK_THROWS_AS(capture(std::make_shared<TestCamera>(3), into(folder, "pgm")), Error);
   CHECK(std::filesystem::file_size(video) == 4);
+}
+
+TEST_CASE("a TIFF stack of a capture has its frames, scale and interval; dropped frames do not change them") {
+  const test::TemporaryFolder f("capture-stack");
+  for (const char* name : {"look.ome.tif", "look.tif"}) {
+    CaptureJob job = into(f.path() / name, "tif");
+    job.um_per_px = 0.35;
+    CHECK(capture(std::make_shared<TestCamera>(20), job).kept == 18);
+    TiffStack stack(job.out);
+    CHECK(stack.pages() == 18);
+    CHECK(*stack.metadata().um_per_px == doctest::Approx(0.35).epsilon(1e-6));
+    CHECK(stack.fps() == doctest::Approx(10).epsilon(1e-6));
+    GrayF page;
+    for (const int k : {1, 2, 3, 4, 5, 6, 9}) {
+      REQUIRE(stack.read(page));
+      CHECK(page.px[0] == float(5 * k));
+    }
+    CHECK_FALSE(std::filesystem::exists(job.out.string() + ".part"));
+    CHECK(numbers(job.out.string() + ".csv").size() == 18);
+    CHECK_THROWS_AS(capture(std::make_shared<TestCamera>(20), job), Error);  // exists
+  }
+  CaptureJob failing = into(f.path() / "failing.tif", "tif");
+  CHECK_THROWS_AS(capture(std::make_shared<TestCamera>(10, true), failing), Error);
+  CHECK_FALSE(std::filesystem::exists(failing.out));
+  CHECK(VideoReader(failing.out.string() + ".part").width() == 20);  // the recorded frames are readable
+  CaptureJob none = into(f.path() / "none.tif", "tif");
+  CHECK(capture(std::make_shared<TestCamera>(0), none).kept == 0);
+  CHECK_FALSE(std::filesystem::exists(none.out));
+}
+
+TEST_CASE("the frame rate of a captured folder is that of its table of times") {
+  const test::TemporaryFolder f("capture-rate");
+  capture(std::make_shared<TestCamera>(20), into(f.path() / "p", "png"));
+  CHECK(picture_metadata(f.path() / "p").fps == doctest::Approx(10).epsilon(1e-6));
+  CHECK(VideoReader(f.path() / "p").fps() == doctest::Approx(10).epsilon(1e-6));
+  CHECK(VideoReader(f.path() / "p", 3).fps() == 3);
+  write_file(f.path() / "p/times.csv", "some,other,table\n1,two,3\n");
+  CHECK(picture_metadata(f.path() / "p").fps == 0);
 }

@@ -25,6 +25,7 @@ class TestEngine final : public Engine {
   std::map<std::uint64_t, int> dies;
   std::set<std::uint64_t> fails;
   int exit_of_all = 0;
+  int lost = 0;      ///< workers that end before they start, such as those of a host that is not reached
   int refusals = 0;  ///< submissions that are not accepted at first
 
   unsigned slots() const override { return 2; }
@@ -44,6 +45,7 @@ class TestEngine final : public Engine {
 
  private:
   AttemptEnd run(const Attempt& a) {
+    if (lost-- > 0) return {a.id, "exit code 255", 255};
     if (exit_of_all != 0) return {a.id, "exit code " + std::to_string(exit_of_all), exit_of_all};
     ResultFile file(a.results, "study");
     for (const std::uint64_t number : numbers_in(a.tasks)) {
@@ -93,6 +95,15 @@ TEST_CASE("workers that die are replaced, and every task has its result") {
   CHECK(s.log().find("signal 9") != std::string::npos);
   REQUIRE(s.notes.size() == 1);  // one for each kind of end
   CHECK(s.notes[0].find("ended with signal 9; its tasks are submitted again") != std::string::npos);
+}
+
+TEST_CASE("workers that end before they start are no failures of a task") {
+  Study s;
+  s.tasks.lost = 20;
+  CHECK(s.run());
+  CHECK(s.store.size() == 50);
+  CHECK(s.log().find("task failed") == std::string::npos);
+  CHECK(s.log().find("exit code 255") != std::string::npos);
 }
 
 TEST_CASE("an attempt that the engine does not accept is submitted again with the same files") {
@@ -190,6 +201,7 @@ TEST_CASE("settings of an engine: name or file, and single values") {
                     doctest::Contains("but by slurm and parallel"));
   CHECK_THROWS_WITH(engine_settings("slurm", {"time=60 s"}), doctest::Contains("180"));
   CHECK_THROWS_WITH(engine_settings("slrum", {}), doctest::Contains("did you mean \"slurm\""));
+  CHECK_THROWS_WITH(engine_settings("pbs", {}), doctest::Contains("for another scheduler use `faba study`"));
   CHECK_THROWS_WITH(engine_settings("slurm", {"partitoin=a"}),
                     doctest::Contains("did you mean \"partition\""));
   CHECK_THROWS_WITH(engine_settings("slurm", {"partition"}), doctest::Contains("has no value"));

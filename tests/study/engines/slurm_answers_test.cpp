@@ -82,6 +82,13 @@ TEST_CASE("errors of sbatch that time removes, and those that the user must corr
     CHECK_FALSE(refused_for_now(answer));
     CHECK_MESSAGE(refusal(answer).ends_with(std::string("correct ") + key + " in [engine]"), refusal(answer));
   }
+  const char* elsewhere =
+      "sbatch: error: fetch_config: DNS SRV lookup failed\nsbatch: fatal: Could not establish a "
+      "configuration "
+      "source";
+  CHECK_FALSE(refused_for_now(elsewhere));
+  CHECK_MESSAGE(refusal(elsewhere).ends_with("run the command on a login node of the cluster"),
+                refusal(elsewhere));
   CHECK(
       refusal("sbatch: error: invalid partition specified: x\n").find(": invalid partition specified: x;") !=
       std::string::npos);

@@ -38,17 +38,15 @@ int rig_capture(const CaptureVerb& v, const Common& c) {
   };
   if (v.time) job.time = time_option(*v.time, "--for");
   if (v.every) job.every = time_option(*v.every, "--every");
-  const std::string extension = job.out.extension().string();
-  job.format = !v.format.empty()     ? v.format
-               : extension == ".mp4" ? "mp4"
-               : extension == ".avi" ? "avi"
-                                     : "png";
-  if (!v.format.empty() && (extension == ".mp4" || extension == ".avi"))
-    throw Error(Errc::usage, "--format", "is for pictures, but --out is a video");
-  if (v.format.empty() && job.format == "png" && !extension.empty())
-    throw Error(
-        Errc::usage, job.out.string(),
-        "unknown file extension; use .avi or .mp4 for a video, or give --format for a folder of pictures");
+  job.um_per_px = s.scale.um_per_px;
+  const std::string extension = job.out.extension().string(), video = capture_format(job.out);
+  job.format = !v.format.empty() ? v.format : !video.empty() ? video : "png";
+  if (!v.format.empty() && !video.empty())
+    throw Error(Errc::usage, "--format", "is for pictures in a folder, but --out is a video or TIFF stack");
+  if (v.format.empty() && video.empty() && !extension.empty())
+    throw Error(Errc::usage, job.out.string(),
+                "unknown file extension; use .avi or .mp4 for a video, .ome.tif or .tif for a TIFF stack, or "
+                "give --format for a folder of pictures");
   job.timeout = s.rig ? s.rig->params.camera_timeout : job.timeout;
   job.stop = &stop_requested();
   Progress bar("capturing", !c.quiet && !c.json);
@@ -78,15 +76,18 @@ int rig_capture(const CaptureVerb& v, const Common& c) {
 
 void add_rig_capture(CLI::App& rig, CommandLine& line) {
   const auto o = std::make_shared<CaptureVerb>();
-  CLI::App* v =
-      verb(rig, line, "capture",
-           "Record the camera without the coils: a video or numbered pictures, all frames or some",
-           "  faba rig capture scenes/bench.toml --for \"10 s\" --out look.avi\n"
-           "  faba rig capture scenes/bench.toml --frames 600 --one-of 10 --format pgm --out pictures\n"
-           "  faba rig capture scenes/bench.toml --every \"500 ms\" --out lapse.mp4\n"
-           "    (records until Ctrl-C)");
+  CLI::App* v = verb(
+      rig, line, "capture",
+      "Record the camera without the coils: a video, TIFF stack or numbered pictures, all frames or some",
+      "  faba rig capture scenes/bench.toml --for \"10 s\" --out look.avi\n"
+      "  faba rig capture scenes/bench.toml --for \"10 s\" --out look.ome.tif\n"
+      "  faba rig capture scenes/bench.toml --frames 600 --one-of 10 --format pgm --out pictures\n"
+      "  faba rig capture scenes/bench.toml --every \"500 ms\" --out lapse.mp4\n"
+      "    (records until Ctrl-C)");
   add_bench_scene(v, o->run);
-  v->add_option("-o,--out", o->run.out, "Video (.avi lossless, or .mp4), or folder of pictures")
+  v->add_option(
+       "-o,--out", o->run.out,
+       "Video (.avi lossless, or .mp4), TIFF stack (.ome.tif, or .tif for ImageJ), or folder of pictures")
       ->required()
       ->check(not_empty)
       ->type_name("FILE");
@@ -106,7 +107,7 @@ void add_rig_capture(CLI::App& rig, CommandLine& line) {
   v->add_flag("--buffered", o->buffered, "Keep pictures in memory and write them at the end, for slow disks");
   v->add_flag("--only-corrupt", o->only_corrupt,
               "Keep only frames that arrived damaged, to examine a camera or its cable");
-  v->add_flag("--force", o->run.force, "Replace an existing video");
+  v->add_flag("--force", o->run.force, "Replace an existing video or stack");
   v->callback([o, &line] { line.code = rig_capture(*o, line.common); });
 }
 

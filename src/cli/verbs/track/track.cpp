@@ -21,6 +21,7 @@
 #include "study/pages/tracks/preview_output.h"
 #include "study/pages/tracks/track_folder.h"
 #include "study/pages/tracks/track_json.h"
+#include "study/pages/tracks/track_output.h"
 #include "study/pages/tracks/track_report.h"
 #include "study/quality/rounded.h"
 
@@ -136,13 +137,18 @@ int preview(const TrackVerb& v, const Common& c) {
 }
 
 // The verb with the files of --result among its outputs, and their folder created.
-TrackVerb with_result(TrackVerb v) {
+TrackVerb with_result(const TrackVerb& asked) {
+  TrackVerb v = asked;
   if (v.result.empty()) return v;
   check_output_folder(v.result, "--result");
   std::error_code ec;
   std::filesystem::create_directories(v.result, ec);
   if (ec) throw Error(Errc::usage, v.result.string(), "the folder cannot be created: " + ec.message());
+  v.formats.clear();
+  for (const TrackTable& table : tables_of(asked))
+    v.formats.emplace_back(kTrackFormatWords[std::size_t(table.format)]);
   v.out.push_back(v.result / track_files::kTracks);
+  v.formats.emplace_back("csv");
   if (v.per_track.empty()) v.per_track = v.result / track_files::kPerTrack;
   if (v.report.empty()) v.report = v.result / track_files::kReport;
   check_output(v.result / track_files::kSummary, {}, v.force, {});
@@ -171,21 +177,23 @@ int track(const TrackVerb& asked, const Common& c) {
     return !stop;
   });
   bar.clear();
+  nlohmann::ordered_json summary = track_json(tracks);
+  if (!asked.formats.empty()) summary["tables"] = tables_json(tables_of(asked), tracks.um_per_px);
   if (!v.result.empty()) {
-    nlohmann::ordered_json summary = track_json(tracks);
     add_provenance(summary, options.provenance);
     write_file(v.result / track_files::kSummary, summary.dump() + "\n");
   }
   if (!c.quiet && !c.json)
     for (const std::string& note : tracks.notes) print_stderr("faba: note: " + note);
   if (c.json) {
-    print_json(track_json(tracks), options.provenance);
+    print_json(std::move(summary), options.provenance);
     return 0;
   }
   if (c.quiet) return 0;
   print_summary(tracks);
   print_quality(tracks.warnings);
-  for (const auto& path : v.out) fmt::print("wrote    {}\n", path.string());
+  for (const TrackTable& table : options.out)
+    fmt::print("wrote    {}{}\n", table.file.string(), table_remark(table, tracks.um_per_px));
   for (const auto* path : {&v.swarm, &v.overlay, &v.report, &v.picture, &v.per_track, &v.figures})
     if (!path->empty()) fmt::print("wrote    {}\n", path->string());
   return 0;
@@ -193,12 +201,36 @@ int track(const TrackVerb& asked, const Common& c) {
 
 }  // namespace
 
+std::vector<TrackTable> tables_of(const TrackVerb& v) {
+  if (v.out.empty() && !v.formats.empty())
+    throw Error(Errc::usage, "--format", "requires --out, the file for the tracks, such as --out tracks.csv");
+  if (v.formats.size() > 1 && v.formats.size() != v.out.size())
+    throw Error(Errc::usage, "--format",
+                fmt::format("{} formats are given for {}; give one format for all, or one for each --out",
+                            v.formats.size(), counted(v.out.size(), "file")));
+  std::vector<TrackTable> tables;
+  for (std::size_t i = 0; i < v.out.size(); ++i) {
+    tables.push_back({v.out[i], TrackFormat::automatic});
+    if (v.formats.empty()) continue;
+    const std::string& word = v.formats.size() == 1 ? v.formats.front() : v.formats[i];
+    tables.back().format =
+        TrackFormat(std::find(std::begin(kTrackFormatWords), std::end(kTrackFormatWords), word) -
+                    std::begin(kTrackFormatWords));
+  }
+  return tables;
+}
+
+std::vector<std::string> extensions_of(TrackFormat format) {
+  if (format == TrackFormat::automatic) return {".csv", ".h5"};
+  return {format == TrackFormat::hdf5 ? ".h5" : ".csv"};
+}
+
 TrackOptions options_of(const TrackVerb& v, const std::filesystem::path& video) {
   TrackOptions o;
   o.video = video;
   o.part = v.part.part(v.fps);
   o.threads = v.threads;
-  o.out = v.out;
+  o.out = tables_of(v);
   if (!v.scale.empty()) {
     const Calibration c = parse_calibration(v.scale, "--um-per-px");
     o.scale = {c.um_per_px, c.typed() ? "typed" : "calibration", ""};
@@ -225,7 +257,8 @@ TrackOptions options_of(const TrackVerb& v, const std::filesystem::path& video) 
 }
 
 void check_outputs(const TrackVerb& v, bool force, const std::vector<std::filesystem::path>& inputs) {
-  for (const auto& path : v.out) check_output(path, {".csv", ".h5"}, force, inputs);
+  for (const TrackTable& table : tables_of(v))
+    check_output(table.file, extensions_of(table.format), force, inputs);
   std::vector<std::filesystem::path> all = v.out;
   all.insert(all.end(), {v.swarm, v.overlay, v.report, v.picture, v.per_track, v.preview});
   check_distinct(std::move(all));
@@ -257,6 +290,13 @@ void add_track_options(CLI::App* v, TrackVerb& t) {
                 "run directory, else results in px")
       ->check(not_empty);
   v->add_option("--out", t.out, "Write the tracks, as CSV or HDF5 by the file extension; may be given twice");
+  v->add_option(
+       "--format", t.formats,
+       "Format of --out: csv, hdf5, trackmate or napari (CSV files for these programs); default: csv or "
+       "hdf5 by the file extension; once, or once for each --out")
+      ->take_all()
+      ->allow_extra_args(false)
+      ->check(one_of({"csv", "hdf5", "trackmate", "napari"}));
   v->add_option(
        "--folder", t.folder,
        "Several videos: directory of the results; default: runs/tracks. Each video has a folder in it, "
@@ -335,6 +375,7 @@ void add_track(CLI::App& app, CommandLine& line) {
       verb(app, line, "track", "Detect and track cells or beads in videos and measure how they move",
            "  faba track film.avi --um-per-px 0.35 --out tracks.csv --report tracks.html\n"
            "  faba track 'frames/frame_*.tif' --fps 26.87 --out tracks.h5 --overlay seen.mp4\n"
+           "  faba track film.avi --out spots.csv --format trackmate\n"
            "  faba track film.avi --result runs/film\n"
            "  faba track runs/film --edits runs/film/edits.toml --out fast.csv\n"
            "  faba track films/*.avi --folder runs/films --out tracks.csv --engine local");

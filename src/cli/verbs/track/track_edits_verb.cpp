@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "study/pages/tracks/track_folder.h"
+#include "study/pages/tracks/track_output.h"
 
 namespace faba::cli {
 namespace {
@@ -23,8 +24,8 @@ void check_edit_options(const TrackVerb& v, const Common& c) {
   for (const CLI::Option* option : c.verb->get_options()) {
     const std::string name = option->get_name();
     const bool allowed = option->get_positional() || name == "--edits" || name == "--out" ||
-                         name == "--per-track" || name == "--json" || name == "--quiet" ||
-                         name == "--force" || name == "--threads";
+                         name == "--format" || name == "--per-track" || name == "--json" ||
+                         name == "--quiet" || name == "--force" || name == "--threads";
     if (option->count() > 0 && !allowed)
       throw Error(Errc::usage, name, "has no effect with --edits, which reads tracks; omit it");
   }
@@ -32,11 +33,23 @@ void check_edit_options(const TrackVerb& v, const Common& c) {
   const fs::path folder = v.videos.front();
   std::vector<fs::path> inputs = {folder / track_files::kTracks, folder / track_files::kSummary,
                                   folder / track_files::kPerTrack, v.edits};
-  for (const fs::path& file : v.out) check_output(file, {".csv"}, v.force, inputs);
+  for (const TrackTable& table : tables_of(v))
+    check_output(table.file, extensions_of(table.format), v.force, inputs);
   check_output(v.per_track, {".csv"}, v.force, inputs);
   std::vector<fs::path> outputs = v.out;
   outputs.push_back(v.per_track);
   check_distinct(std::move(outputs));
+}
+
+// The CSV table of this program has comments with the edits; the readers of the others do not permit
+// comments.
+void write_edited(const TrackTable& table, const TrackFolder& folder, const EditedFolder& edited) {
+  if (table.file.extension() == ".csv" && table.format <= TrackFormat::csv)
+    return write_file(table.file, edited_tracks_csv(folder, edited));
+  const auto out = track_output(table, {folder.width, folder.height, folder.um_per_px, folder.timed});
+  for (const EditedTrack& t : edited.tracks)
+    if (t.used()) out->write(t.track);
+  out->complete();
 }
 
 }  // namespace
@@ -45,9 +58,12 @@ int apply_track_edits(const TrackVerb& v, const Common& c) {
   check_edit_options(v, c);
   const TrackFolder folder = read_track_folder(v.videos.front());
   const EditedFolder edited = apply_edits(folder, read_track_edits(read_toml(v.edits), folder));
-  if (!v.out.empty()) write_file(v.out.front(), edited_tracks_csv(folder, edited));
+  const std::vector<TrackTable> tables = tables_of(v);
+  for (const TrackTable& table : tables) write_edited(table, folder, edited);
   if (!v.per_track.empty()) write_file(v.per_track, track_features_csv(folder, edited));
-  const nlohmann::ordered_json j = edited_json(folder, edited);
+  nlohmann::ordered_json j = edited_json(folder, edited);
+  j.erase("tables");
+  if (!v.formats.empty()) j["tables"] = tables_json(tables, folder.um_per_px);
   if (c.json) {
     fmt::print("{}\n", j.dump());
     return 0;
@@ -62,7 +78,8 @@ int apply_track_edits(const TrackVerb& v, const Common& c) {
   for (const auto& p : j["populations"])
     fmt::print("         {:.0f} % {}, median speed {:.4g} px/s\n", 100 * p["fraction"].get<double>(),
                p["motion"].get<std::string>(), p["speed_px_per_s"].get<double>());
-  for (const fs::path& file : v.out) fmt::print("wrote    {}\n", file.string());
+  for (const TrackTable& table : tables)
+    fmt::print("wrote    {}{}\n", table.file.string(), table_remark(table, folder.um_per_px));
   if (!v.per_track.empty()) fmt::print("wrote    {}\n", v.per_track.string());
   return 0;
 }

@@ -19,6 +19,7 @@
 #include "study/data/run_video.h"
 #include "study/pages/provenance_output.h"
 #include "study/pages/tracks/track_json.h"
+#include "study/pages/tracks/track_output.h"
 #include "study/pages/tracks/track_report.h"
 
 namespace faba::cli {
@@ -163,7 +164,7 @@ class TrackVideosJob final : public StudyJob {
 
   TrackMeasurement track_into(const fs::path& to, std::size_t i) const {
     TrackOptions o = options_of(verb_, verb_.videos[i]);
-    for (fs::path& path : o.out) path = to / path;
+    for (TrackTable& table : o.out) table.file = to / table.file;
     for (fs::path* path : {&o.swarm, &o.overlay, &o.report, &o.picture, &o.per_track, &o.figures})
       if (!path->empty()) *path = to / *path;
     o.threads = 1;
@@ -178,6 +179,7 @@ class TrackVideosJob final : public StudyJob {
       }
     }();
     OrderedJson j = track_json(m);
+    if (!verb_.formats.empty()) j["tables"] = tables_json(tables_of(verb_), m.um_per_px);
     add_provenance(j, o.provenance);
     write_file(to / "track.json", j.dump() + "\n");
     return m;

@@ -109,7 +109,12 @@ TrackFolder read_track_folder(const fs::path& folder) {
   const fs::path summary = folder / track_files::kSummary;
   try {
     out.summary = parse_json(read_file(summary));
+    if (out.summary.contains("image_size")) {
+      out.width = out.summary["image_size"].at(0).get<int>();
+      out.height = out.summary["image_size"].at(1).get<int>();
+    }
     out.frame_s = out.summary.at("frame_s").get<double>();
+    out.timed = out.summary.value("timed", true);
     if (const Json& um = out.summary.at("um_per_px"); um.is_number()) out.um_per_px = um.get<double>();
     if (const Json& speed = out.summary.at("speed"); speed.is_object())
       out.interval = std::max(1, speed.at("interval_frames").get<int>());

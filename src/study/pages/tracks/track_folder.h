@@ -24,8 +24,10 @@ struct TrackFolder {
   Json summary;               ///< of the measured tracks
   std::vector<Track> tracks;  ///< measured, in the order of the file
   std::string sha256;         ///< of tracks.csv
+  int width = 0, height = 0;  ///< of the frames, px; 0: not stated
   double frame_s = 1;
-  int interval = 1;  ///< frames of the displacements for speeds
+  bool timed = true;  ///< false: times are frame counts
+  int interval = 1;   ///< frames of the displacements for speeds
   std::optional<double> um_per_px;
   bool drift_removed = false;
 };

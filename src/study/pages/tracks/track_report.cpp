@@ -73,9 +73,9 @@ class Overlay {
 class TrackFiles final : public TrackListener {
  public:
   TrackFiles(const TrackOptions& o, const RunVideo& source, const TrackSurvey& s) {
-    for (const auto& path : o.out)
+    for (const TrackTable& table : o.out)
       outputs_.push_back(
-          track_output(path, {s.first.width, s.first.height, source.scale.um_per_px.value_or(0)}));
+          track_output(table, {s.first.width, s.first.height, source.scale.um_per_px, s.timed}));
     if (!o.overlay.empty()) overlay_ = std::make_unique<Overlay>(o.overlay, s);
     if (!o.swarm.empty()) swarm_ = std::make_unique<SwarmOutput>(o.swarm, s, s.bits);
   }

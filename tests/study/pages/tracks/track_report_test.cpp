@@ -81,7 +81,7 @@ TEST_CASE("track: tables, overlay, picture, page and figures are complete and re
   o.video = folder / "frames";
   o.part.fps = 10;
   o.scale.um_per_px = 0.5;
-  o.out = {folder / "t.csv", folder / "t.h5"};
+  o.out = {{folder / "t.csv"}, {folder / "t.h5"}};
   o.overlay = folder / "o.mp4";
   o.report = folder / "r.html";
   o.picture = folder / "p.png";
@@ -123,7 +123,7 @@ TEST_CASE("track: unusual videos give a result or an error message") {
   const auto track = [&](const char* name) {
     TrackOptions o;
     o.video = folder / name;
-    o.out = {folder / "t.csv"};
+    o.out = {{folder / "t.csv"}};
     return track_json(track_video(o));
   };
   std::filesystem::create_directories(folder / "black");
@@ -166,7 +166,7 @@ TEST_CASE("track: a cancelled measurement leaves no files") {
   swimmers(folder / "frames", {}, 20, 3, 8);
   TrackOptions o;
   o.video = folder / "frames";
-  o.out = {folder / "t.csv", folder / "t.h5"};
+  o.out = {{folder / "t.csv"}, {folder / "t.h5"}};
   o.overlay = folder / "o.mp4";
   try {
     track_video(o, [](std::int64_t done, std::int64_t) { return done < 12; });

@@ -143,4 +143,23 @@ export const files: Record<string, string> = {
   '{} frames per second is out of range; the frame rate must be between 0.001 and 10000': '{} quadros por segundo está fora do intervalo permitido; a taxa de quadros deve estar entre 0.001 e 10000',
   'page {} differs in size from the first; split the stack there': 'a página {} tem tamanho diferente da primeira; divida a pilha ali',
   'mp4 does not support 16-bit grey; use lossless_avi': 'mp4 não suporta cinza de 16 bits; use lossless_avi',
+  'a page differs in size or type from the stack': 'uma página difere da pilha em tamanho ou tipo',
+  'contains no frames; it cannot be finished': 'não contém quadros; não pode ser finalizado',
+  'the video has the value {}, but values of {} bits must be between 0 and {}; convert its pixels to 32-bit floats first':
+    'o vídeo tem o valor {}, mas valores de {} bits devem estar entre 0 e {}; converta antes os seus pixels para ponto flutuante de 32 bits',
+  'the video has no frames after {} s{}; change --from and --to': 'o vídeo não tem quadros depois de {} s{}; mude --from e --to',
+  'and before {} s': 'e antes de {} s',
+  converting: 'convertendo',
+  'grey, 8 bits': 'cinza, 8 bits',
+  'grey, 16 bits': 'cinza, 16 bits',
+  'grey, 32-bit floats': 'cinza, ponto flutuante de 32 bits',
+  'colours, 8 bits': 'cores, 8 bits',
+  'the scale is not known, so the file states none; give it with --um-per-px': 'a escala não é conhecida, por isso o arquivo não a informa; informe-a com --um-per-px',
+  'the frame rate is not known, so the file states no frame interval; give it with --fps':
+    'a taxa de quadros não é conhecida, por isso o arquivo não informa o intervalo entre quadros; informe-a com --fps',
+  'the frames are not at equal times; the file states their mean interval without gaps':
+    'os quadros não estão em tempos iguais; o arquivo informa o seu intervalo médio sem as lacunas',
+  'the file exceeds 4 GB and is a BigTIFF, which ImageJ reads with Bio-Formats; for a smaller file, select a part with --from and --to':
+    'o arquivo excede 4 GB e é um BigTIFF, que o ImageJ lê com o Bio-Formats; para um arquivo menor, selecione uma parte com --from e --to',
+  'damaged frames are missing: {}': 'faltam quadros danificados: {}',
 };

@@ -58,6 +58,7 @@ export const studies: Record<string, string> = {
   'the last {} workers ended without a result ({}); correct the settings of the engine and run the same command again. {} lists how they ended': 'os últimos {} processos de cálculo terminaram sem resultado ({}); corrija as configurações de [engine] e execute o mesmo comando novamente. {} lista como terminaram',
   '{} is not used by the engine {}, but by {}': '{} não é usado por {}, mas por {}',
   'unknown engine "{}"; it must be one of {}, or a TOML file with a table [engine]{}': 'engine desconhecido "{}"; deve ser um de {}, ou um arquivo TOML com uma tabela [engine]{}',
+  'for another scheduler use `faba study`': 'com outro escalonador use `faba study`',
   '"{}" has no value; write KEY=VALUE, such as partition=short': '"{}" não tem valor; escreva KEY=VALUE, como partition=short',
   'has no table [engine]; write [engine] with type = "slurm"': 'não tem tabela [engine]; escreva [engine] com type = "slurm"',
   'cannot be started: {}': 'não pode ser iniciado: {}',

@@ -7,6 +7,11 @@ export const tracks: Record<string, string> = {
   'requires several videos, or --folder: one video is computed by one worker': 'requer vários vídeos, ou --folder: um vídeo é calculado por um processo',
   'requires one folder, which faba track --result has written': 'requer uma pasta, gravada por faba track --result',
   'has no effect with --edits, which reads tracks; omit it': 'não tem efeito com --edits, que lê trajetórias; omita-o',
+  'requires --out, the file for the tracks, such as --out tracks.csv': 'requer --out, o arquivo para as trajetórias, por exemplo --out tracks.csv',
+  '{} formats are given for {}; give one format for all, or one for each --out':
+    '{} formatos foram informados para {}; informe um formato para todos, ou um para cada --out',
+  '{} file': '{} arquivo',
+  '{} files': '{} arquivos',
   'may be given once with --edits': 'pode ser informado uma só vez com --edits',
   'requires a single video': 'requer um só vídeo',
   'must be a name without a folder, such as {}: with several videos it is written to the folder of each video': 'deve ser um nome sem pasta, como {}: com vários vídeos, é gravado na pasta de cada vídeo',

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "vision/files/tiff_description.h"
+#include "vision/files/tiff/tiff_description.h"
 #include "vision/image/image.h"
 
 namespace faba {

@@ -1,4 +1,4 @@
-#include "vision/files/tiff_stack.h"
+#include "vision/files/tiff/tiff_stack.h"
 
 #include <doctest/doctest.h>
 

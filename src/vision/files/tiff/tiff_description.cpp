@@ -1,4 +1,4 @@
-#include "vision/files/tiff_description.h"
+#include "vision/files/tiff/tiff_description.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "vision/files/xml_attributes.h"
+#include "vision/files/tiff/xml_attributes.h"
 
 namespace faba {
 namespace {

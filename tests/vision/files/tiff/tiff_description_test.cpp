@@ -1,4 +1,4 @@
-#include "vision/files/tiff_description.h"
+#include "vision/files/tiff/tiff_description.h"
 
 #include <doctest/doctest.h>
 
@@ -7,8 +7,8 @@
 #include "tests/vision/media.h"
 #include "tests/vision/raw_files.h"
 #include "vision/files/picture_metadata.h"
+#include "vision/files/tiff/xml_attributes.h"
 #include "vision/files/video_reader.h"
-#include "vision/files/xml_attributes.h"
 
 using namespace faba;
 

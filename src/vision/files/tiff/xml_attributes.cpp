@@ -1,4 +1,4 @@
-#include "vision/files/xml_attributes.h"
+#include "vision/files/tiff/xml_attributes.h"
 
 #include <array>
 #include <charconv>
