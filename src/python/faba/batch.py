@@ -34,7 +34,7 @@ def simulate(
     scene : path, TOML text or dict
     parameters : dict from paths such as "swarm[0].model.speed" to a sequence of values in SI units, or of texts with a unit, one for
         each set; a single value belongs to all sets
-    seeds : int or sequence of int
+    seeds : int or sequence of int: the seeds themselves, not their number; range(20) gives twenty trials
     statistic : name of a metric such as "steady_rms_px" (those of Run.metrics), a list of names, or a function of the finished
         Simulation, which several threads call, one at a time
     duration, set, controller, estimator, reference : as of Simulation; parts in Python as classes, of which each simulation has an object
