@@ -3,7 +3,7 @@ SHELL := /bin/bash
 JOBS ?= $(shell nproc)
 SETUP = tools/setup.sh
 
-.PHONY: run lab page python test test-engines setup build bench accuracy reproduce format lint asan tsan dev fuzz docs clean help
+.PHONY: run lab page python train-example test test-engines setup build bench accuracy reproduce format lint asan tsan dev fuzz docs clean help
 
 run: build            ## build the program and run scenes/steer.toml: a swarm is steered along a route
 	@build/faba run scenes/steer.toml --seed 1 --force --out runs/steer
@@ -27,6 +27,14 @@ python:               ## build the Python package: build/python/faba; use it wit
 	@$(SETUP) python
 	@cmake --preset release --log-level=WARNING > /dev/null
 	@cmake --build build -j $(JOBS) --target python faba-coil-guard faba-capture
+
+# Gymnasium is not in Debian: installed with pip, or a copy in the folder GYMNASIUM.
+GYMNASIUM ?= ../shared/clients/gymnasium
+train-example: python ## install PyTorch, train the policy of examples/ that holds a swarm, about ten minutes, and compare it with controllers
+	@$(SETUP) python torch
+	@export PYTHONPATH=$(CURDIR)/build/python:$(PYTHONPATH):$(GYMNASIUM); \
+	  /usr/bin/python3 examples/train_hold.py && \
+	  /usr/bin/python3 examples/evaluate_hold.py --bench --curve docs/img/hold-learning.svg
 
 setup:                ## install the packages for building (apt-get; with sudo if not root)
 	@$(SETUP)

@@ -1,5 +1,5 @@
-// The control loop in C++, for bench/python.py: SCENE FRAMES ROUNDS. Prints the shortest processor and wall time
-// of a frame, s, and the state hash.
+// The control loop in C++, for bench/python.py: SCENE FRAMES ROUNDS. Prints the shortest processor and wall
+// time of a frame, s, and the state hash.
 #include <fmt/format.h>
 
 #include <chrono>

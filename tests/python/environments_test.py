@@ -6,7 +6,7 @@ import unittest
 import warnings
 
 import numpy as np
-from common import SHARED, main
+from common import ROOT, SHARED, main
 
 import faba
 
@@ -126,6 +126,15 @@ class Environments(unittest.TestCase):
         s.run()
         x, y = s.state["x"].astype(float), s.state["y"].astype(float)
         np.testing.assert_allclose([x.mean(), y.mean()], info["true_centroid"], rtol=1e-12)
+
+    def test_the_scene_of_the_training_example_is_that_of_hold(self):
+        from faba import environments
+
+        wanted = faba.Simulation(environments._HOLD).scenario
+        found = faba.Simulation(ROOT / "examples/hold.toml").scenario
+        for part in ("duration", "camera", "arena", "field", "limits", "estimator"):
+            self.assertEqual(found.get(part), wanted.get(part), part)
+        self.assertEqual(found["swarm"][0]["model"], wanted["swarm"][0]["model"])
 
     def test_wrong_actions(self):
         env = gymnasium.make("faba/Hold-v0", **SHORT).unwrapped

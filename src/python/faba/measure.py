@@ -560,8 +560,8 @@ def track(
     um_per_px : Scale: micrometres per pixel, or a calibration file from `faba scale`; default: that of a run
         directory, else results in px
     out : Write the tracks, as CSV or HDF5 by the file extension; may be given twice
-    format : Format of --out: csv, hdf5, trackmate or napari (CSV files for these programs); default: csv or hdf5 by
-        the file extension; once, or once for each --out
+    format : Format of out: csv, hdf5, trackmate or napari (CSV files for these programs); default: csv or hdf5 by the
+        file extension; once, or once for each out
     folder : Several videos: directory of the results; default: runs/tracks. Each video has a folder in it, and
         outputs are names of files in this folder. An incomplete directory is resumed
     result : Write tracks.csv, per_track.csv, tracks.html and track.json into this folder: the result that edits and
