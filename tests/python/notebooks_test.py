@@ -58,7 +58,8 @@ class Notebooks(unittest.TestCase):
         for source in SOURCES:
             with self.subTest(notebook=source.stem), notebooks.workplace(ROOT) as folder:
                 environment = {**os.environ, "MPLBACKEND": "Agg"}
-                done = subprocess.run([sys.executable, "-W", "ignore", source], capture_output=True, text=True, check=False, cwd=folder, env=environment)
+                done = subprocess.run([sys.executable, "-W", "ignore", source], capture_output=True, text=True, check=False, cwd=folder,
+                                      env=environment)
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertEqual(done.stdout, "".join(printed(stored(source))))
 

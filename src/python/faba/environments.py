@@ -24,7 +24,7 @@ Distribution = Any
 _HERE = pathlib.Path(__file__).resolve().parent
 _WIDTH, _HEIGHT, _RATE = 640, 480, 60.0  # px, px, Hz
 
-_SWARM = {"count": 300, "model": {"type": "dipole", "preset": "IT-1"}, "start": {"type": "disc", "radius_px": 25.0}}
+_SWARM: dict[str, Any] = {"count": 300, "model": {"type": "dipole", "preset": "IT-1"}, "start": {"type": "disc", "radius_px": 25.0}}
 _HOLD: dict[str, Any] = {
     "title": "Hold a swarm at a setpoint",
     "duration": 10.0,
@@ -34,7 +34,7 @@ _HOLD: dict[str, Any] = {
     "controller": {"type": "proportional"},
     "reference": {"type": "hold"},
 }
-_ROUTE = {
+_ROUTE: dict[str, Any] = {
     **_HOLD,
     "title": "Steer a swarm along a route",
     "duration": 20.0,
@@ -44,7 +44,7 @@ _ROUTE = {
         "tolerance_px": 20.0,
     },
 }
-_GATHER = {
+_GATHER: dict[str, Any] = {
     **_HOLD,
     "title": "Gather a swarm with four coils",
     "duration": 20.0,
@@ -167,7 +167,7 @@ class _RouteTask(_Task):
         indices, finished = self.worlds.setpoint_indices(), self.worlds.routes_finished()
         reached = (indices != self.last_setpoints) | finished
         self.last_setpoints = indices
-        return super().rewards() + 10.0 * reached
+        return np.asarray(super().rewards() + 10.0 * reached)
 
     def ended(self) -> npt.NDArray[np.bool_]:
         return np.asarray(self.worlds.routes_finished())
@@ -246,7 +246,7 @@ class _Env(gymnasium.Env[npt.NDArray[np.float32], npt.NDArray[np.float32]]):
         matplotlib.pyplot.pause(1e-3)
 
 
-class _VectorEnv(gymnasium.vector.VectorEnv[npt.NDArray[np.float32], npt.NDArray[np.float32], Floats]):
+class _VectorEnv(gymnasium.vector.VectorEnv[npt.NDArray[np.float32], npt.NDArray[np.float32], npt.NDArray[Any]]):
     """Many worlds, stepped by one call on all cores. A world that ended starts again in the next step."""
 
     metadata = {
