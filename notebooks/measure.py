@@ -148,14 +148,15 @@ plt.show()
 # %% [markdown]
 # ## The response to the field reversal
 #
-# `activity()` measures how much moves in the direction of the response, from the optical flow.
+# `activity()` measures how much moves in the direction of the response, from the optical flow. The onset is a little later than the
+# reversal, because the cells need some time to turn.
 
 # %%
 activity = faba.activity(video, reversal=1.5)["videos"][0]
 low, high = activity["onset_ci90"]
 print(f"onset {activity['onset_s']:.3f} s, 90 % interval {low:.3f} to {high:.3f}; the field is reversed at 1.5 s")
 direction = (activity["direction_deg"] + 180) % 360 - 180
-print(f"direction {direction:.1f} degrees clockwise in the picture, true 0 (to the right)")
+print(f"direction {direction:+.1f} degrees clockwise in the picture, true 0 (to the right)")
 low, high = activity["responding_fraction_ci90"]
 print(f"responding fraction {activity['responding_fraction']:.2f}, 90 % interval {low:.2f} to {high:.2f}, true 1")
 print("quality", activity["quality"])

@@ -130,9 +130,9 @@ plt.show()
 
 # %%
 tracks = run.tracks
-print(dict(tracks.sizes))
+print(tracks.sizes["frame"], "frames,", tracks.sizes["cell"], "cells")
 spread = tracks.position_px.std("cell").isel(frame=[0, -1])
-print("dispersion in x and y, first and last frame, px:", spread.values.round(1).tolist())
+print("dispersion in x and y, first and last frame, px:", np.round(spread.values.astype(float), 1).tolist())
 tracks.close()
 
 # %% [markdown]

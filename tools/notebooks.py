@@ -67,8 +67,7 @@ def execute(empty, root, package):
 
     with workplace(root) as folder:
         book = nbformat.reads(json.dumps(empty), as_version=4)
-        environment = {**os.environ, "PYTHONPATH": str(package), "IPYTHONDIR": str(folder / ".ipython"), "HOME": str(folder),
-                       "PYDEVD_DISABLE_FILE_VALIDATION": "1"}  # no warning about the debugger
+        environment = {**os.environ, "PYTHONPATH": str(package), "IPYTHONDIR": str(folder / ".ipython"), "HOME": str(folder)}
         client = nbclient.NotebookClient(book, timeout=SECONDS, kernel_name="python3", record_timing=False,
                                          resources={"metadata": {"path": folder}})
         client.execute(env=environment)

@@ -57,7 +57,7 @@ class Notebooks(unittest.TestCase):
     def test_the_sources_print_what_the_notebooks_contain(self):
         for source in SOURCES:
             with self.subTest(notebook=source.stem), notebooks.workplace(ROOT) as folder:
-                environment = {**os.environ, "MPLBACKEND": "Agg"}
+                environment = {**os.environ, "MPLBACKEND": "Agg", "PYTHONPATH": str(PACKAGE)}
                 done = subprocess.run([sys.executable, "-W", "ignore", source], capture_output=True, text=True, check=False, cwd=folder,
                                       env=environment)
                 self.assertEqual(done.returncode, 0, done.stderr)
