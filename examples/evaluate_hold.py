@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """Compares the policy of hold_policy.npz with built-in controllers, each with the same starts, setpoints, speeds and seeds.
 
-    examples/evaluate_hold.py [--seeds 20] [--first 1000] [--bench] [--curve FILE]
+    examples/evaluate_hold.py [--seeds 20] [--first 1000] [--bench] [--fuzzy] [--curve FILE]
 
 Prints tables in Markdown: means over the seeds with 95 % intervals, and paired differences. --bench: the policy also holds a swarm on
-the simulated bench of scenes/bench.toml, in real time. --curve: draws hold_learning.csv (needs matplotlib). Needs no PyTorch.
+the simulated bench of scenes/bench.toml, in real time. --fuzzy: tests other values of max_output of fuzzy.
+--curve: draws hold_learning.csv (needs matplotlib). Needs no PyTorch.
 """
 
 import argparse
@@ -69,6 +70,7 @@ def text(values):
 
 
 def compare(seeds):
+    """Prints the tables."""
     results = {name: measure(controller, seeds) for name, controller in CONTROLLERS.items()}
     print(f"Means of {len(seeds)} seeds with 95 % intervals:\n")
     print(f"| controller | {' | '.join(METRICS.values())} | settled |")
@@ -80,7 +82,12 @@ def compare(seeds):
     print("|---|" + "---|" * len(METRICS))
     for name, values in list(results.items())[1:]:
         print(f"| {name} | {' | '.join(text(column) for column in (values - results['policy']).T)} |")
-    return results
+
+
+def tune_fuzzy(seeds):
+    print("\nSteady-state error of fuzzy with other values of max_output:\n\n| max_output | steady-state error, px |\n|---|---|")
+    for strength in (0.5, 2, 5, 10, 20, STRENGTH):
+        print(f"| {strength} | {text(measure({'type': 'fuzzy', 'max_output': strength}, seeds)[:, 0])} |")
 
 
 def hold_on_bench(seed, out):
@@ -98,9 +105,15 @@ def draw_curve(path):
     with open(HERE / "hold_learning.csv") as file:
         rows = list(csv.DictReader(file))
     figure, axes = pyplot.subplots(figsize=(6.4, 3.6), layout="constrained")
-    axes.plot([int(r["frames"]) / 1e6 for r in rows], [float(r["mean_distance_px"]) for r in rows], color="#1f5fa8")
-    axes.set(xlabel="simulated frames, millions", ylabel="mean distance of an episode, px", yscale="log")
-    axes.grid(True, which="both", color="#dddddd", linewidth=0.6)
+    frames = [int(r["frames"]) / 1e6 for r in rows]
+    axes.plot(frames, [float(r["mean_distance_px"]) for r in rows], color="#1f5fa8", label="entire episode")
+    axes.plot(frames, [float(r["last_third_px"]) for r in rows], color="#b3541e", linestyle="--", label="last third")
+    axes.set(xlabel="simulated frames, millions", ylabel="mean distance, px", yscale="log")
+    ticks = [2, 5, 10, 20, 50, 100, 200]
+    axes.set_yticks(ticks, [str(tick) for tick in ticks])
+    axes.minorticks_off()
+    axes.legend()
+    axes.grid(True, color="#dddddd", linewidth=0.6)
     figure.savefig(path, metadata={"Date": None})
 
 
@@ -109,9 +122,13 @@ def main():
     a.add_argument("--seeds", type=int, default=20, help="number of seeds, default 20")
     a.add_argument("--first", type=int, default=1000, help="first seed, default 1000")
     a.add_argument("--bench", action="store_true", help="also on the simulated bench, 12 s in real time")
+    a.add_argument("--fuzzy", action="store_true", help="also other values of max_output of fuzzy")
     a.add_argument("--curve", type=pathlib.Path, help="file for the picture of the learning curve, such as curve.svg")
     o = a.parse_args()
-    compare(range(o.first, o.first + o.seeds))
+    seeds = range(o.first, o.first + o.seeds)
+    compare(seeds)
+    if o.fuzzy:
+        tune_fuzzy(seeds)
     if o.bench:
         with tempfile.TemporaryDirectory() as folder:
             distance = hold_on_bench(o.first, pathlib.Path(folder) / "run")
