@@ -1,5 +1,5 @@
-// The control loop in C++, for bench/python.py: SCENE FRAMES ROUNDS. Prints the shortest processor and wall time
-// of a frame, s, and the state hash.
+// The control loop in C++, for bench/python.py: SCENE FRAMES ROUNDS. Prints the shortest processor and wall
+// time of a frame, s, and the state hash.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -22,11 +22,11 @@ int main(int argc, char** argv) {
     Pool pool(1);
     Simulation simulation(s, *s.params.seed, pool);
     run_cycle(simulation.loop());  // touches all memory
-    const auto begun = std::chrono::steady_clock::now();
+    const auto started = std::chrono::steady_clock::now();
     const std::clock_t used = std::clock();
     for (std::uint64_t i = 0; i < frames; ++i) run_cycle(simulation.loop());
     cpu = std::min(cpu, double(std::clock() - used) / CLOCKS_PER_SEC / double(frames));
-    wall = std::min(wall, std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count() /
+    wall = std::min(wall, std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count() /
                               double(frames));
     hash = simulation.state_hash();
   }

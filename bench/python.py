@@ -74,10 +74,10 @@ class Bench:
     def turned(self, controller=None):
         s = faba.Simulation(LOOP, controller=controller)
         s.turn()
-        begun = time.process_time()
+        started = time.process_time()
         for _ in range(FRAMES):
             s.turn()
-        elapsed = (time.process_time() - begun) / FRAMES
+        elapsed = (time.process_time() - started) / FRAMES
         self.check("state hash of turn()", s.state_hash == self.hash)
         return elapsed
 
@@ -95,18 +95,18 @@ class Bench:
         values = {}
 
         def by_program():
-            begun = time.perf_counter()
+            started = time.perf_counter()
             subprocess.run([ROOT / "build/faba", "compare-controllers", study, "--out", self.folder / "study", "--quiet", "--force"], check=True)
-            elapsed = time.perf_counter() - begun
+            elapsed = time.perf_counter() - started
             result = json.loads((self.folder / "study/controllers.json").read_text())
             values["program"] = result["combinations"][0]["metrics"]["steady_rms_px"]["mean"]
             subprocess.run(["rm", "-r", self.folder / "study"], check=True)
             return elapsed
 
         def by_package():
-            begun, cpu = time.perf_counter(), time.process_time()
+            started, cpu = time.perf_counter(), time.process_time()
             result = faba.simulate(scene, {"swarm[0].model.speed": np.full(2000, 186e-6)}, 1, "steady_rms_px")
-            elapsed = time.perf_counter() - begun
+            elapsed = time.perf_counter() - started
             values["cores"] = (time.process_time() - cpu) / elapsed
             self.check("shape of simulate()", result.shape == (2000, 1))
             seeds = faba.simulate(scene, {}, list(range(1, 101)), "steady_rms_px")
@@ -140,19 +140,19 @@ class Bench:
 
         def native_vector():
             envs.reset(seed=1)
-            begun = time.perf_counter()
+            started = time.perf_counter()
             for _ in range(frames):
                 envs.step(action)
-            return (time.perf_counter() - begun) / frames / WORLDS
+            return (time.perf_counter() - started) / frames / WORLDS
 
         def python_loop():
             for env in single:
                 env.reset(seed=1)
-            begun = time.perf_counter()
+            started = time.perf_counter()
             for _ in range(30):
                 for env in single:
                     env.step(action[0])
-            return (time.perf_counter() - begun) / 30 / WORLDS
+            return (time.perf_counter() - started) / 30 / WORLDS
 
         one, vector, loop = best_of(self.o.rounds, lambda: self.native(native_scene, frames), native_vector, python_loop)
         self.row("300 cells, frames per second of the loop in C++, one core", 1 / one, None)

@@ -60,7 +60,7 @@ WORDS = {
     # messages
     r"(?<!there )is no (?!longer|more|less|greater|larger|slower|faster|better|worse|need)": "is not a ...; unknown ...",
     r"are no (?=files|numbers|pictures|videos)": "are not ...",
-    r"is none(?! of the above)": "not found; must be one of",
+    r"(?<!\.)is none(?! of the above)": "not found; must be one of",  # not the function .is_none()
     r"there is nothing here": "not found",
     r"nothing to do": "no jobs; already complete",
     r"texts? in quotes": "string",

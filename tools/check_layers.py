@@ -28,7 +28,7 @@ MAY = {
     "study": "core field vision sim control rig app",
     "server": "core app study",
     "cli": "core app study server",
-    "python": "core field vision sim control app study",
+    "python": "core field vision sim control rig app study",
     "guard": "core rig",
 }
 # Subfolders and the sibling subfolders that each may include; "." is the folder itself. In folders that are not listed,

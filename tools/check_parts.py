@@ -24,6 +24,7 @@ CHOSEN = {
     "src/app/scenario/sections/swarm.cpp": {"dipole", "uniform"},
     "src/rig/setup/rig_setup.cpp": {"simulated"},
     "src/study/data/flow_choice.h": {"horn_schunck"},
+    "src/python/measures.cpp": {"horn_schunck"},  # the default of the program
     "src/study/identify/best_scene.cpp": {"hold"},
     "src/study/identify/episode_simulation.cpp": {"box", "drop", "dipole", "places", "none", "manual"},
     "src/study/identify/matched_look.cpp": {"dipole"},
@@ -35,6 +36,11 @@ CHOSEN = {
 }
 # Other meanings of the names of parts: (name, meaning, files).
 OTHER_MEANINGS = (
+    ("image", "an attribute in Python", "src/python/loop_values.cpp"),
+    ("visible", "an argument and an attribute in Python", "src/python/loop_values.cpp"),
+    ("groups", "an attribute in Python", "src/python/loop_values.cpp"),
+    ("gradient", "a key in Python", "src/python/measures.cpp"),
+    ("rig", "an argument in Python", "src/python/measures.cpp"),
     ("box", "the frame of the arena in JSON", "src/server/live_lab.cpp src/server/recorded_run.cpp web/src/steering.svelte.ts"),
     ("box", "the frame of the picture instead of an edge", "web/src/own/own.ts web/src/own/EdgeStep.svelte web/src/own/StartStep.svelte"),
     ("box", "a shape in a figure", "src/study/plot/plot_layer_data.cpp web/src/results/plot_drawing.ts"),

@@ -24,7 +24,7 @@ from cpp_source import TEXT_TYPES, Source, Token, closing_of, split, until
 # Functions of these folders return parts of reports, which have other translations; their errors are read.
 REPORTS = ("src/study/pages/", "src/study/plot/")
 # Messages of these folders and files appear only in a terminal: jobs of the lab run other verbs, on this machine.
-TERMINAL_ONLY = ("src/cli/options/", "src/cli/verbs/rig/", "src/cli/verbs/doctor",
+TERMINAL_ONLY = ("src/python/", "src/cli/options/", "src/cli/verbs/rig/", "src/cli/verbs/doctor",
                  "src/cli/command_line", "src/cli/main", "src/cli/usage_message", "src/cli/verbs.cpp", "src/cli/progress", "src/study/calibrate/",
                  "src/study/pages/calibration", "src/study/engines/slurm", "src/study/engines/dask", "src/study/engines/parallel")
 SCHEMA_CALLS = {"check", "note"}  # their argument is a function that returns a message

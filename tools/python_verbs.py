@@ -9,22 +9,28 @@ tools/make_docs.py writes the file, and tools/check_docs.py fails if it differs 
 
 import json
 import keyword
+import re
 import subprocess
 import sys
 import textwrap
 
 FILE = "src/python/faba/measure.py"
-# Verb -> names of its inputs in Python; "picture" and "video" inputs may be arrays.
+# Verb -> kind of its inputs: "picture" and "several" (videos) may be arrays. "field fit" is field_fit() in Python.
 VERBS = {
     "activity": "several",
     "calibrate": "path",
     "compare": "several",
     "drop": "picture",
+    "field fit": "path",
     "identify": "path",
     "moment": "path",
     "optics": "",
     "scale": "picture",
     "track": "several",
+}
+ARRAYS = {
+    "picture": "A picture may be an array (height, width) of grey values from 0 to 255 (8 bit) or 65535 (16 bit).",
+    "several": "A video may be an array (frames, height, width) of grey values from 0 to 255 (8 bit) or 65535 (16 bit); give its `fps`.",
 }
 # Options that have no meaning in Python.
 LEFT_OUT = ("--help", "--json", "--quiet", "--shard", "--merge")
@@ -50,7 +56,7 @@ def python_type(option):
     kind = option["type"]
     if kind == "flag":
         return "bool", "False"
-    one = "int" if kind.startswith(("INT", "UINT")) else "float" if kind.startswith("FLOAT") else "Text"
+    one = "int" if kind.startswith(("INT", "UINT")) else "float" if kind.startswith("FLOAT") else "Path" if kind == "FILE" else "Text"
     return (f"Sequence[{one}] | {one} | None" if option.get("several") else f"{one} | None"), "None"
 
 
@@ -59,17 +65,33 @@ def argument(option):
     return name + "_" if keyword.iskeyword(name) else name
 
 
+def declaration(option):
+    one, default = python_type(option)
+    if option.get("required"):
+        return f"{argument(option)}: {one.removesuffix(' | None')}"
+    return f"{argument(option)}: {one} = {default}"
+
+
 def wrapped(text, indent, hanging=4):
     return textwrap.wrap(text, 118 - indent, subsequent_indent=" " * hanging)
+
+
+def described(option, options):
+    """The description, with the names of options as the arguments in Python."""
+    names = {o["name"]: argument(o) for o in options}
+    return re.sub(r"--[a-z0-9-]+", lambda m: names.get(m[0], m[0]), option["description"])
 
 
 def docstring(verb, inputs, options):
     lines = [f'"""{verb["description"]}.', ""]
     for option in inputs + options:
-        lines += wrapped(f'{argument(option)} : {option["description"]}', 4)
-    if VERBS[verb["name"]] in ("picture", "several"):
-        lines += [""] + wrapped("Pictures may be arrays (height, width), videos arrays (frames, height, width) with `fps`.", 4, 0)
-    lines += [""] + wrapped(f'Returns a Measurement: a dict with the members of `faba {verb["name"]} --json`. Raises faba.Error.', 4, 0)
+        lines += wrapped(f'{argument(option)} : {described(option, options)}', 4)
+    if ARRAYS.get(VERBS[verb["name"]]):
+        lines += [""] + wrapped(ARRAYS[VERBS[verb["name"]]], 4, 0)
+    result = f'Returns a Measurement: a dict with the members of `faba {verb["name"]} --json` (docs/formats/cli.md). '
+    if verb["name"] == "track":
+        result += "For a single video without `out`, its attribute `tracks` has a row for each detection. "
+    lines += [""] + wrapped(result + "Raises faba.Error.", 4, 0)
     return "\n".join(("    " + line).rstrip() for line in lines + ['"""'])
 
 
@@ -78,11 +100,12 @@ def function(verb):
     inputs = [o for o in verb["options"] if o.get("positional")]
     kind = {"several": "Any", "picture": "Any", "path": "Path", "": ""}[VERBS[verb["name"]]]
     arguments = [f"{argument(o)}: {kind}" for o in inputs] + ["*"]
-    arguments += [f"{argument(o)}: {python_type(o)[0]} = {python_type(o)[1]}" for o in options]
+    arguments += [declaration(o) for o in options]
     given = ", ".join(f'("{argument(o)}", {argument(o)})' for o in inputs)
-    lines = [f'def {verb["name"]}(', *(f"    {a}," for a in arguments), ") -> Measurement:", docstring(verb, inputs, options)]
-    call = "call_track" if verb["name"] == "track" else "call"
-    lines += [f'    return {call}(["{verb["name"]}"], [{given}], {{']
+    words = verb["name"].split()
+    lines = [f'def {"_".join(words)}(', *(f"    {a}," for a in arguments), ") -> Measurement:", docstring(verb, inputs, options)]
+    call = "call_track" if words == ["track"] else "call"
+    lines += [f'    return {call}({json.dumps(words)}, [{given}], {{']
     lines += [f'        "{argument(o)}": {argument(o)},' for o in options]
     return "\n".join([*lines, "    })", ""])
 

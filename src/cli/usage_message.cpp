@@ -27,7 +27,8 @@ std::string unexpected(const std::vector<const CLI::App*>& chain) {
   std::string surplus;
   for (const CLI::App* at : chain)
     for (const std::string& word : at->remaining()) {
-      if (word.size() < 2 || word.front() != '-' || word == "--") {
+      if (word == "--") continue;  // separates the options from the arguments
+      if (word.size() < 2 || word.front() != '-') {
         if (surplus.empty()) surplus = fmt::format("unexpected argument \"{}\"", word);
         continue;
       }

@@ -54,9 +54,10 @@ class Registry {
   }
   /// A part that a function makes, for a class that is not known at compile time. `settle`: see add().
   template <class P>
-  void add_made(const Schema<P>& s, const std::vector<Trait>& its_traits,
-                const std::function<std::unique_ptr<Interface>(const P&, const Context&)>& make,
-                const std::function<void(P&, const Node&)>& settle = [](P&, const Node&) {}) {
+  void add_made(
+      const Schema<P>& s, const std::vector<Trait>& its_traits,
+      const std::function<std::unique_ptr<Interface>(const P&, const Context&)>& make,
+      const std::function<void(P&, const Node&)>& settle = [](P&, const Node&) {}) {
     Entry e;
     e.traits = its_traits;
     e.json_schema = s.json_schema();

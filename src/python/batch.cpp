@@ -6,7 +6,7 @@
 #include "core/counted.h"
 #include "core/file.h"
 #include "python/convert.h"
-#include "python/python_object.h"
+#include "python/reported_progress.h"
 #include "python/simulation.h"
 #include "study/pages/controller_report.h"
 #include "study/steering/controller_study.h"
@@ -99,11 +99,13 @@ class Batch {
         raised_(std::move(raised)),
         results_(sets_.size() * seeds_.size()) {}
 
-  void run(unsigned threads) {
+  void run(unsigned threads, ReportedProgress& progress) {
     Pool pool(threads);
+    std::atomic<std::uint64_t> done{0};
     pool.run_uneven(results_.size(), [&](std::size_t task) {
-      if (!raised_->stopped())
-        results_[task] = result(sets_[task / seeds_.size()], seeds_[task % seeds_.size()]);
+      if (raised_->stopped()) return;
+      results_[task] = result(sets_[task / seeds_.size()], seeds_[task % seeds_.size()]);
+      progress.report(++done, results_.size());
     });
   }
 
@@ -128,7 +130,7 @@ class Batch {
 
   Result result(const ParameterSet& set, std::uint64_t seed) {
     Document d = scene_;
-    for (const auto& [path, value] : set) set_value(d, path, value);
+    for (const auto& [path, value] : set) set_value(d, path, value, "parameters");
     d.set("seed", Json(seed), "seeds");
     Scenario s = read_scenario_with(std::move(d), parts_);
     if (statistic_.function) return {{}, of_function(std::move(s))};
@@ -185,7 +187,7 @@ void require_class(const py::object& part, const char* key) {
 py::object simulate(const py::object& scene, const py::dict& parameters, const py::object& seeds,
                     const py::object& statistic, const py::object& duration, const py::object& set,
                     const py::object& controller, const py::object& estimator, const py::object& reference,
-                    unsigned threads) {
+                    unsigned threads, const py::object& progress) {
   require_class(controller, "controller");
   require_class(estimator, "estimator");
   require_class(reference, "reference");
@@ -193,12 +195,13 @@ py::object simulate(const py::object& scene, const py::dict& parameters, const p
   const SceneArguments a{scene, py::none(), set, duration, {estimator, reference, controller}};
   Batch batch(read_document(a), read_parameters(parameters), read_seeds(seeds), read_statistic(statistic),
               a.parts.parts(raised), raised);
-  raised->run([&] { batch.run(checked_threads(threads)); });
+  ReportedProgress reported(progress, raised);
+  raised->run([&] { batch.run(checked_threads(threads), reported); });
   return batch.values();
 }
 
 py::object compare(const py::object& path, const py::dict& controllers, const py::object& seeds,
-                   unsigned threads, const py::object& page) {
+                   unsigned threads, const py::object& page, const py::object& progress) {
   const auto raised = std::make_shared<Raised>();
   const auto file = py::str(path).cast<std::string>();
   ControllerStudy study = read_controller_study(file);
@@ -221,6 +224,8 @@ py::object compare(const py::object& path, const py::dict& controllers, const py
   std::optional<ControllerComparison> comparison;
   SweepOptions options;
   options.threads = checked_threads(threads);
+  ReportedProgress reported(progress, raised);
+  options.progress = [&](std::uint64_t done, std::uint64_t total) { reported.report(done, total); };
   options.stop = [&] { return raised->stopped(); };
   raised->run([&] { comparison = compare_controllers(study, results, options); });
   if (!page.is_none()) {
@@ -235,29 +240,13 @@ py::object compare(const py::object& path, const py::dict& controllers, const py
 
 void bind_batch(py::module_& m) {
   const auto none = py::none();
-  m.def(
-      "simulate", simulate, py::arg("scene"), py::arg("parameters"), py::arg("seeds"), py::arg("statistic"),
-      py::kw_only(), py::arg("duration") = none, py::arg("set") = none, py::arg("controller") = none,
-      py::arg("estimator") = none, py::arg("reference") = none, py::arg("threads") = 0,
-      "Simulates a scenario with many parameter sets and seeds, on all cores, without files.\n\n"
-      "scene : path, TOML text or dict\n"
-      "parameters : dict from paths such as \"swarm[0].model.speed\" to a sequence of values in SI units or\n"
-      "    texts with a unit, one for each set; a single value belongs to all sets\n"
-      "seeds : int or sequence of int\n"
-      "statistic : name of a metric such as \"steady_rms_px\", a list of names, or a function of the "
-      "finished\n"
-      "    Simulation, called by several threads in turn\n"
-      "duration, set, controller, estimator, reference : as of Simulation; parts in Python as classes\n"
-      "threads : int, 0: all\n\n"
-      "Returns an array (sets, seeds), with a further axis for several metrics; NaN: undefined for the run.");
+  m.def("simulate", simulate, py::arg("scene"), py::arg("parameters"), py::arg("seeds"), py::arg("statistic"),
+        py::kw_only(), py::arg("duration") = none, py::arg("set") = none, py::arg("controller") = none,
+        py::arg("estimator") = none, py::arg("reference") = none, py::arg("threads") = 0,
+        py::arg("progress") = none, "Values of simulations of a scenario by parameter set and seed.");
   m.def("compare_controllers", compare, py::arg("study"), py::arg("controllers") = py::dict(), py::kw_only(),
-        py::arg("seeds") = none, py::arg("threads") = 0, py::arg("page") = none,
-        "Compares the controllers of a study file and further ones over its models, delays and seeds.\n\n"
-        "study : path of a study file of `faba compare-controllers`\n"
-        "controllers : dict from names to classes in Python, names of built-in controllers, or tables\n"
-        "seeds : int, trials of each combination; default: that of the study\npage : path of an HTML page, "
-        "or None\n\n"
-        "Returns a dict, as in controllers.json. Nothing is stored, so a stopped comparison starts again.");
+        py::arg("seeds") = none, py::arg("threads") = 0, py::arg("page") = none, py::arg("progress") = none,
+        "Result of a comparison of controllers, a dict.");
 }
 
 }  // namespace faba::python

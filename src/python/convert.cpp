@@ -10,6 +10,7 @@ namespace faba::python {
 namespace {
 
 constexpr int kDepth = 64;  // as parse_json()
+constexpr py::ssize_t kMostOfRange = 10'000'000;
 
 std::string type_name(py::handle value) { return py::str(py::type::of(value).attr("__name__")); }
 
@@ -40,7 +41,13 @@ Json json_at(py::handle value, const std::string& where, int depth) {
     }
     return j;
   }
-  if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
+  if (PyRange_Check(value.ptr())) {
+    const py::ssize_t length = PyObject_Length(value.ptr());
+    if (length < 0) throw py::error_already_set();  // more than 64 bits
+    if (length > kMostOfRange)
+      throw Error(Errc::usage, where, fmt::format("is a range of more than {} numbers", kMostOfRange));
+  }
+  if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value) || PyRange_Check(value.ptr())) {
     Json j = Json::array();
     for (const auto v : value) j.push_back(json_at(v, where, depth + 1));
     return j;

@@ -81,7 +81,11 @@ void bind_estimate(py::module_& m) {
       .def_property_readonly(
           "cov", [](const Group& g) { return matrix_of(g.cov); },
           "float array (2, 2): of the positions, m^2");
-  py::class_<Estimate>(m, "Estimate", "Estimated state of the swarm at the time `t`; world frame, SI units.")
+  py::class_<Estimate>(m, "Estimate",
+                       "Estimated state of the swarm at the time `t`; world frame, SI units.\n\n"
+                       "t : float, s\ncentroid : (x, y), m\nvisible : float, number of cells; 0: none, the "
+                       "coils are switched off\n"
+                       "cov : array (2, 2), m^2, default: zeros\nvelocity : (x, y), m/s, default: zeros")
       .def(py::init(&make_estimate), py::arg("t"), py::arg("centroid"), py::arg("visible"),
            py::arg("cov") = py::none(), py::arg("velocity") = py::none())
       .def_readonly("t", &Estimate::t, "float: s")
@@ -103,7 +107,10 @@ void bind_estimate(py::module_& m) {
 }
 
 void bind_target(py::module_& m) {
-  py::class_<Target>(m, "Target", "Setpoint of the swarm; world frame, m.")
+  py::class_<Target>(m, "Target",
+                     "Setpoint of the swarm; world frame, m.\n\n"
+                     "position : (x, y), m\nindex : int, of the setpoint on a route\nfinished : bool, "
+                     "whether the route is at its end")
       .def(py::init([](py::handle position, std::size_t index, bool finished) {
              return Target{vector_of(position, "position"), index, finished};
            }),
@@ -116,12 +123,19 @@ void bind_target(py::module_& m) {
       .def("__repr__", [](const Target& t) {
         return fmt::format("<faba.Target {} ({:.4g}, {:.4g}) m>", t.index, t.position.x, t.position.y);
       });
-  py::class_<Drift>(m, "Drift", "Desired mean velocity of the swarm, m/s, world frame: Drift(x, y).")
+  py::class_<Drift>(m, "Drift",
+                    "Desired mean velocity of the swarm, m/s, world frame: Drift(x, y).\n\n"
+                    "The field along it has one field unit for each pixel of drift in an iteration, as cells "
+                    "of the models\n"
+                    "`basic` and `adapted` need it. Cells of the model `dipole` swim along it at their own "
+                    "speed, and turn more\n"
+                    "slowly in a weaker field: for them use Context.currents_for_direction().")
       .def(py::init([](double x, double y) {
              return Drift{{x, y}};
            }),
            py::arg("x"), py::arg("y"))
-      .def_property_readonly("velocity", [](const Drift& d) { return array_of(d.velocity); })
+      .def_property_readonly(
+          "velocity", [](const Drift& d) { return array_of(d.velocity); }, "float array (2,): m/s")
       .def("__repr__",
            [](const Drift& d) { return fmt::format("faba.Drift({:g}, {:g})", d.velocity.x, d.velocity.y); });
 }
@@ -190,7 +204,11 @@ void bind_context(py::module_& m) {
           [](const C& c, py::handle p) {
             return array_of(c.frame.world_from_image(vector_of(p, "position")));
           },
-          py::arg("position"), "Position, m, world frame, of an image position, px (y down).");
+          py::arg("position"), "Position, m, world frame, of an image position, px (y down).")
+      .def("__repr__", [](const C& c) {
+        return fmt::format("<faba.Context {} coils, frame period {:.4g} s, {:.4g} m per px>",
+                           c.max_current.size(), c.frame_period, c.scale.m_per_px);
+      });
 }
 
 }  // namespace

@@ -34,12 +34,20 @@ struct CoilField {
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-// Points (..., 2) or (..., 3), m; z = 0 where it is missing.
-std::vector<Vec3> points_of(const Numbers& at) {
-  const auto last = at.ndim() ? at.shape(at.ndim() - 1) : 0;
+// Numbers (..., 2) or (..., 3).
+Numbers positions_of(const py::object& at) {
+  Numbers a = Numbers::ensure(at);
+  if (!a) PyErr_Clear();
+  const auto last = a && a.ndim() ? a.shape(a.ndim() - 1) : 0;
   if (last != 2 && last != 3)
     throw Error(Errc::usage, "at",
                 "must be an array of positions x, y or x, y, z: shape (..., 2) or (..., 3), m");
+  return a;
+}
+
+// Points, m; z = 0 where it is missing.
+std::vector<Vec3> points_of(const Numbers& at) {
+  const auto last = at.shape(at.ndim() - 1);
   std::vector<Vec3> points(std::size_t(at.size() / last));
   const double* from = at.data();
   for (Vec3& p : points) {
@@ -49,7 +57,8 @@ std::vector<Vec3> points_of(const Numbers& at) {
   return points;
 }
 
-py::array_t<double> field_at(const CoilField& f, const Numbers& at, const py::object& given) {
+py::array_t<double> field_at(const CoilField& f, const py::object& positions, const py::object& given) {
+  const Numbers at = positions_of(positions);
   const std::vector<Vec3> points = points_of(at);
   const std::vector<double> current = f.currents(given);
   std::vector<Vec3> b(points.size());
@@ -82,6 +91,11 @@ CoilField make_field(const py::object& rig) {
     d.root = json_of(rig, "");
     return {read_rig(std::move(d), builtin_parts()).make({})};
   }
+  if (!py::isinstance<py::str>(rig) && !py::hasattr(rig, "__fspath__"))
+    throw Error(
+        Errc::usage, "rig",
+        fmt::format("has the type {}; give the path of a coil system file, or its content as a dictionary",
+                    py::str(py::type::of(rig).attr("__name__")).cast<std::string>()));
   return {read_rig(py::str(rig).cast<std::string>(), builtin_parts()).make({})};
 }
 
@@ -111,10 +125,15 @@ void bind_field(py::module_& m) {
           py::arg("field"), py::arg("at") = py::make_tuple(0.0, 0.0),
           "Currents, A, array (coils,), for an in-plane field of the coils, T, at a position, m: those with "
           "the\n"
-          "least sum of squares.")
+          "least sum of squares. They can be larger than max_currents.")
       .def("null", field_null, py::arg("at"), py::arg("polarity") = -1,
            "Currents for a zero of the field at a position, m, that traps cells of a polarity.\n\n"
-           "Returns a dict: currents (A), gradient (eigenvalues, T/m), reachable, saddle.");
+           "Returns a dict: currents (A), gradient (eigenvalues, T/m), reachable (within the largest "
+           "currents), "
+           "saddle\n(traps in one direction only).")
+      .def("__repr__", [](const CoilField& f) {
+        return fmt::format("<faba.Field of {}>", counted(f.field->coils(), "coil"));
+      });
 }
 
 GrayF image_of(const Numbers& a, const char* name) {
@@ -188,19 +207,19 @@ void bind_measures(py::module_& m) {
         "and down.\n\na, b : arrays (height, width), grey values 0 to 255\n"
         "method : horn_schunck, dis or farneback\noptions : dict of its parameters (faba.parts(\"flow\"))\n"
         "threads : int, 0: all; does not change the result");
-  m.def(
-      "distance", distance, py::arg("p"), py::arg("q"), py::kw_only(), py::arg("m") = 0.9,
-      py::arg("threshold") = 3.0,
-      "Quadratic-Chi distance of two histograms (Pele and Werman 2010).\n\np, q : sequences of equal length\n"
-      "m : exponent of the normalisation, from 0, less than 1\n"
-      "threshold : distance of bins at which their similarity is zero");
+  m.def("distance", distance, py::arg("p"), py::arg("q"), py::kw_only(), py::arg("m") = 0.9,
+        py::arg("threshold") = 3.0,
+        "Quadratic-Chi distance of two histograms, a float, 0 if they are equal (Pele and Werman 2010).\n\n"
+        "p, q : sequences of equal length, not negative\n"
+        "m : exponent of the normalisation, from 0, less than 1\n"
+        "threshold : distance of bins at which their similarity is zero");
   m.def("parts", parts, py::arg("kind") = py::none(),
         "JSON Schema of every part that a scenario can name, with meaning, unit, range, default and source "
         "of its\n"
         "parameters: a dict by kind and name, or by name for one kind such as \"controller\".");
   m.def(
       "schema", [] { return object_of(scenario_json_schema(builtin_parts())); },
-      "JSON Schema of a scenario file, as a dict.");
+      "JSON Schema of a scenario file, a dict: for editors and forms.");
   m.def(
       "set_program_folder", [](const std::string& folder) { set_program_folder(folder); }, py::arg("folder"),
       "Folder of the programs faba and faba-coil-guard, for the bench.");

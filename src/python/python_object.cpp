@@ -23,6 +23,16 @@ void SharedObject::release(py::object* object) {
   delete object;
 }
 
+void CallTime::check() const {
+  const double taken = monotonic_now() - start_;
+  if (taken <= longest_) return;
+  throw Error(
+      Errc::device, where_,
+      fmt::format("a call took {:.3g} s, but the guard of the bench waits {:.3g} s for a command and has "
+                  "de-energised the coils; make it faster, or increase rig.guard.command_deadline",
+                  taken, longest_));
+}
+
 std::string class_name(const py::object& part) {
   const py::object type = py::isinstance<py::type>(part) ? part : py::object(py::type::of(part));
   return fmt::format("{}:{}", py::str(type.attr("__module__")).cast<std::string>(),

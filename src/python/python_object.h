@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/archive.h"
+#include "core/monotonic.h"
 #include "python/raised.h"
 
 namespace faba::python {
@@ -25,6 +26,19 @@ class SharedObject {
 /// "module:Class" of an object or class; the file of a scenario names a part of type "python" like this.
 std::string class_name(const py::object& part);
 
+/// The time of a call, from its construction; with the time that other threads of Python hold the GIL.
+class CallTime {
+ public:
+  CallTime(const std::string& where, const Raised& raised) : where_(where), longest_(raised.longest_call) {}
+  /// Throws Error(device) if the call took longer than permitted.
+  void check() const;
+
+ private:
+  const std::string& where_;
+  double longest_;  ///< s
+  double start_ = monotonic_now();
+};
+
 /// A part of the control loop in Python: an instance, and its state for checkpoints.
 class PartObject {
  public:
@@ -33,12 +47,19 @@ class PartObject {
   PartObject(const SharedObject& part, const py::object& context, std::string where,
              std::shared_ptr<Raised> raised);
 
-  /// Calls `work(instance)` with the GIL; an exception is kept and ends the run.
+  /// Calls `work(instance)` with the GIL; an exception, or a call that takes too long, ends the run.
   template <class Work>
   auto call(Work&& work) {
+    const CallTime time(where_, *raised_);
     const py::gil_scoped_acquire gil;
     try {
-      return work(instance_->get());
+      if constexpr (std::is_void_v<std::invoke_result_t<Work, const py::object&>>) {
+        work(instance_->get());
+      } else {
+        auto result = work(instance_->get());
+        time.check();
+        return result;
+      }
     } catch (const py::error_already_set& e) {
       throw raised_->keep(where_, e);
     } catch (const py::cast_error& e) {

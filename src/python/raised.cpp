@@ -1,5 +1,9 @@
 #include "python/raised.h"
 
+#include <array>
+#include <regex>
+#include <utility>
+
 #include "core/monotonic.h"
 
 namespace faba::python {
@@ -10,11 +14,39 @@ constexpr double kAskEvery = 0.05;  // s, between two questions for Ctrl-C
 /// The class faba.Error; lives as long as the interpreter.
 PyObject* error_class = nullptr;
 
+/// Options of the command line in messages, and the arguments in Python.
+constexpr std::array<std::pair<const char*, const char*>, 9> kOptions = {{{"--set", "set"},
+                                                                          {"--seed", "seed"},
+                                                                          {"--duration", "duration"},
+                                                                          {"--threads", "threads"},
+                                                                          {"--out", "out"},
+                                                                          {"--force", "force=True"},
+                                                                          {"--as-seen", "as_seen=True"},
+                                                                          {"--arm", "arm=True"},
+                                                                          {"--method", "method"}}};
+
+// The text with the options of the command line replaced; commands in backticks are kept.
+std::string with_arguments(const std::string& text) {
+  static const std::regex option("`[^`]*`|--[a-z][a-z-]*");
+  std::string result;
+  auto from = text.begin();
+  for (std::sregex_iterator it(text.begin(), text.end(), option), end; it != end; ++it) {
+    std::string word = it->str();
+    for (const auto& [name, argument] : kOptions)
+      if (word == name) word = argument;
+    result.append(from, (*it)[0].first).append(word);
+    from = (*it)[0].second;
+  }
+  return result.append(from, text.end());
+}
+
 void raise(const Error& e) {
-  const py::object error = py::reinterpret_borrow<py::object>(error_class)(e.what());
+  const std::string where = with_arguments(e.where()), reason = with_arguments(e.reason());
+  const py::object error =
+      py::reinterpret_borrow<py::object>(error_class)(where.empty() ? reason : where + ": " + reason);
   error.attr("code") = int(e.code());
-  error.attr("where") = e.where();
-  error.attr("what") = e.reason();
+  error.attr("where") = where;
+  error.attr("what") = reason;
   PyErr_SetObject(error_class, error.ptr());
 }
 

@@ -2,6 +2,7 @@
 #include <pybind11/pybind11.h>
 
 #include <atomic>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -39,6 +40,9 @@ class Raised {
     rethrow(note);
     if (error) std::rethrow_exception(error);
   }
+
+  /// Longest call of a part in Python, s: on a bench the time that the guard waits for a command.
+  double longest_call = std::numeric_limits<double>::infinity();
 
  private:
   void rethrow(const std::string& note);

@@ -8,7 +8,7 @@
 #include "app/bench/replay.h"
 #include "app/recording/run_directory.h"
 #include "python/convert.h"
-#include "python/python_object.h"
+#include "python/reported_progress.h"
 #include "python/scene.h"
 #include "study/data/run_info.h"
 #include "study/pages/reported_run.h"
@@ -17,21 +17,21 @@
 namespace faba::python {
 namespace {
 
-constexpr std::chrono::milliseconds kReportEvery{100};  // between two calls of `progress`
-
 /// Options of a recorded run whose progress and stop come from Python.
 class WatchedRun {
  public:
   WatchedRun(const std::string& out, bool numbered, bool force, unsigned threads, const py::object& progress,
-             std::shared_ptr<Raised> raised)
-      : raised_(std::move(raised)) {
-    if (!progress.is_none()) progress_.emplace(progress);
+             const std::shared_ptr<Raised>& raised)
+      : progress_(progress, raised) {
     options_.out = out;
     options_.numbered = numbered;
     options_.force = force;
     options_.threads = checked_threads(threads);
     options_.stop = &stop_;
-    options_.progress = [this](std::uint64_t done, std::uint64_t total) { report(done, total); };
+    options_.progress = [this, raised](std::uint64_t done, std::uint64_t total) {
+      progress_.report(done, total);
+      if (raised->stopped()) stop_ = true;
+    };
   }
   WatchedRun(const WatchedRun&) = delete;
   WatchedRun& operator=(const WatchedRun&) = delete;
@@ -39,24 +39,8 @@ class WatchedRun {
   const RunOptions& options() const { return options_; }
 
  private:
-  void report(std::uint64_t done, std::uint64_t total) {
-    if (raised_->stopped()) stop_ = true;
-    const auto now = std::chrono::steady_clock::now();
-    if (!progress_ || (now - reported_ < kReportEvery && done != total)) return;
-    reported_ = now;
-    const py::gil_scoped_acquire gil;
-    try {
-      progress_->get()(done, total);
-    } catch (const py::error_already_set& e) {
-      (void)raised_->keep("progress", e);
-      stop_ = true;
-    }
-  }
-
-  std::shared_ptr<Raised> raised_;
-  std::optional<SharedObject> progress_;
+  ReportedProgress progress_;
   std::atomic<bool> stop_{false};
-  std::chrono::steady_clock::time_point reported_{};
   RunOptions options_;
 };
 
@@ -123,6 +107,8 @@ std::string bench_run(const py::object& scene, bool arm, const py::object& out, 
   raised->run(
       [&] {
         const auto bench = std::make_shared<OpenBench>(s, *s.params.seed);
+        const GuardSetup setup = bench->guard_setup({});
+        raised->longest_call = CoilGuard(setup.guard, setup.bounds(), setup.frame_period).command_deadline();
         BenchSession session = BenchSession::begin(s, bench, *s.params.seed, watched.options());
         made = session.dir().string();
         run_with_report(session);

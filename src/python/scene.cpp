@@ -36,11 +36,11 @@ Document read_source(const py::object& scene) {
 
 }  // namespace
 
-void set_value(Document& d, const std::string& path, const Json& value) {
+void set_value(Document& d, const std::string& path, const Json& value, const std::string& label) {
   if (value.is_string())
-    d.set(path, value.get<std::string>(), path);
+    d.set(path, value.get<std::string>(), label);
   else
-    d.set(path, value, path);
+    d.set(path, value, label);
 }
 
 Document read_document(const SceneArguments& a) {
@@ -50,11 +50,11 @@ Document read_document(const SceneArguments& a) {
       throw Error(Errc::usage, "set", "is not a dictionary from paths to values");
     for (const auto& [path, value] : py::reinterpret_borrow<py::dict>(a.set)) {
       const auto name = py::str(path).cast<std::string>();
-      set_value(d, name, json_of(value, name));
+      set_value(d, name, json_of(value, name), "--set");
     }
   }
-  if (!a.duration.is_none()) set_value(d, "duration", json_of(a.duration, "duration"));
-  if (!a.seed.is_none()) set_value(d, "seed", json_of(a.seed, "seed"));
+  if (!a.duration.is_none()) set_value(d, "duration", json_of(a.duration, "duration"), "--duration");
+  if (!a.seed.is_none()) set_value(d, "seed", json_of(a.seed, "seed"), "--seed");
   a.parts.name_in(d);
   return d;
 }

@@ -15,8 +15,9 @@ struct SceneArguments {
   GivenParts parts = {};
 };
 
-/// Sets a value of a scenario; a text is read like that of --set on the command line.
-void set_value(Document& d, const std::string& path, const Json& value);
+/// Sets a value of a scenario; a text is read like that of --set on the command line. `label` is the place of
+/// the value in errors; "--set" and other options become the names of arguments.
+void set_value(Document& d, const std::string& path, const Json& value, const std::string& label);
 /// The document with all changes; parts in Python are named.
 Document read_document(const SceneArguments& a);
 /// Its scenario, with a seed. Exceptions of parts in Python are kept in `raised`. Throws Error(usage).

@@ -102,7 +102,13 @@ py::object run(const py::object& self, const py::object& frames) {
   auto& s = self.cast<PySimulation&>();
   const InUse use(s.exclusive());
   std::optional<std::uint64_t> end;
-  if (!frames.is_none()) end = s.frame() + frames.cast<std::uint64_t>();
+  if (!frames.is_none()) {
+    const Json n = json_of(frames, "frames");
+    if (!n.is_number_integer() || n < 0)
+      throw Error(Errc::usage, "frames",
+                  fmt::format("is {}; give a number of frames, an integer from 0", n.dump()));
+    end = s.frame() + n.get<std::uint64_t>();
+  }
   s.raised().run([&] { s.run(end); });
   return self;
 }
@@ -160,9 +166,11 @@ void bind_properties(py::class_<PySimulation, std::shared_ptr<PySimulation>>& c)
       .def_property_readonly("finished", &PySimulation::finished,
                              "bool: whether all frames of the scenario are simulated")
       .def_property_readonly(
-          "t", [](const PySimulation& s) { return s.simulation().world().state().t; }, "float: s")
+          "t", [](const PySimulation& s) { return s.simulation().world().state().t; },
+          "float: time of the state, s")
       .def_property_readonly(
-          "seed", [](const PySimulation& s) { return *s.scenario().params.seed; }, "int")
+          "seed", [](const PySimulation& s) { return *s.scenario().params.seed; },
+          "int: seed of the random numbers")
       .def_property_readonly(
           "cells", [](const PySimulation& s) { return s.simulation().world().state().agents.size(); },
           "int: number of cells")
@@ -210,8 +218,13 @@ void bind_simulation(py::module_& m) {
            "command : currents, A, one for each coil, in place of those of the controller; they pass the "
            "limits.\nReturns a Tick.")
       .def("run", run, py::arg("frames") = py::none(),
-           "Simulates a number of frames, default: to the end of the scenario. Returns the simulation.")
-      .def("picture", picture, "The camera's picture of the newest frame, uint8 array (height, width).")
+           "Simulates a number of frames, default: to the end of the scenario; at most to its end. Returns "
+           "the "
+           "simulation.")
+      .def("picture", picture,
+           "The camera's picture of the newest frame, uint8 array (height, width); the scenario must render "
+           "pictures:\n"
+           "camera.sensor = \"frames\" or record.as_seen = true.")
       .def("drawing", drawing, "The schematic picture of the lab, uint8 array (height, width, 3).")
       .def("save", save, "The complete state of the simulation, bytes.")
       .def("restore", restore, py::arg("saved"), "Continues from a saved state of the same scenario.")

@@ -97,7 +97,7 @@ void Worlds::reset(const std::vector<std::size_t>& which, const std::vector<std:
                    const std::vector<std::vector<std::pair<std::string, Json>>>& sets) {
   pool_.run_uneven(which.size(), [&](std::size_t k) {
     Document d = scene_;
-    for (const auto& [path, value] : sets[k]) set_value(d, path, value);
+    for (const auto& [path, value] : sets[k]) set_value(d, path, value, "sets");
     d.set("seed", Json(seeds[k]), "seed");
     World w;  // replaces the former one when it is complete
     w.pool = std::make_unique<Pool>(1);
@@ -153,13 +153,13 @@ class PyWorlds {
         changes[k].emplace_back(name, json_of(value, name));
       }
     raised_.run([&] { worlds_.reset(which, seeds, changes); });
-    begun_ = begun_ || which.size() == worlds_.all().size();
-    if (!begun_) throw Error(Errc::usage, "reset", "the first reset must be of all worlds");
+    started_ = started_ || which.size() == worlds_.all().size();
+    if (!started_) throw Error(Errc::usage, "reset", "the first reset must be of all worlds");
   }
 
   void step(const py::array_t<double, py::array::c_style | py::array::forcecast>& actions) {
     const InUse use(exclusive_);
-    require_begun();
+    require_started();
     const auto n = py::ssize_t(worlds_.all().size()), k = py::ssize_t(worlds_.outputs());
     if (actions.ndim() != 2 || actions.shape(0) != n || actions.shape(1) != k)
       throw Error(Errc::usage, "actions", fmt::format("must have the shape ({}, {})", n, k));
@@ -171,7 +171,7 @@ class PyWorlds {
 
   py::array_t<float> observations() {
     const InUse use(exclusive_);
-    require_begun();
+    require_started();
     const std::size_t n = worlds_.all().size(), k = worlds_.inputs();
     py::array_t<float> a({n, k});
     float* to = a.mutable_data();
@@ -182,7 +182,7 @@ class PyWorlds {
   template <class Value>
   py::array vectors(Value value) {
     const InUse use(exclusive_);
-    require_begun();
+    require_started();
     py::array_t<double> a({worlds_.all().size(), std::size_t(2)});
     for (std::size_t i = 0; i < worlds_.all().size(); ++i) {
       const Vec2 v = value(worlds_.all()[i]);
@@ -194,7 +194,7 @@ class PyWorlds {
   template <class T, class Value>
   py::array numbers(Value value) {
     const InUse use(exclusive_);
-    require_begun();
+    require_started();
     py::array_t<T> a(py::ssize_t(worlds_.all().size()));
     for (std::size_t i = 0; i < worlds_.all().size(); ++i) a.mutable_at(i) = T(value(worlds_.all()[i]));
     return a;
@@ -202,7 +202,7 @@ class PyWorlds {
 
   py::array drawing(std::size_t which) {
     const InUse use(exclusive_);
-    require_begun();
+    require_started();
     if (which >= worlds_.all().size())
       throw Error(Errc::usage, "drawing", fmt::format("there is no world {}", which));
     const Worlds::World& w = worlds_.all()[which];
@@ -212,7 +212,7 @@ class PyWorlds {
   }
 
   const Worlds& worlds() const {
-    require_begun();
+    require_started();
     return worlds_;
   }
   std::size_t number() const { return worlds_.all().size(); }
@@ -227,14 +227,14 @@ class PyWorlds {
     if (action == "currents" || action == "field") return action == "currents";
     throw Error(Errc::usage, "action", fmt::format("\"{}\" is not field or currents", action));
   }
-  void require_begun() const {
-    if (!begun_) throw Error(Errc::usage, "worlds", "call reset() first");
+  void require_started() const {
+    if (!started_) throw Error(Errc::usage, "worlds", "call reset() first");
   }
 
   Exclusive exclusive_{"Worlds"};
   Raised raised_;
   Worlds worlds_;
-  bool begun_ = false;
+  bool started_ = false;
 };
 
 // The input of a policy that is a controller.
@@ -265,7 +265,7 @@ void bind_worlds(py::module_& m) {
            "Starts worlds again, each with a seed and a dict of changes of the scenario.")
       .def("step", &PyWorlds::step, py::arg("actions"),
            "One control cycle of each world; `actions`: array (worlds, size of an action).")
-      .def_property_readonly("number", &PyWorlds::number)
+      .def_property_readonly("number", &PyWorlds::number, "int: number of worlds")
       .def_property_readonly(
           "inputs", [](const PyWorlds& w) { return w.worlds().inputs(); }, "int: size of an observation")
       .def_property_readonly(

@@ -49,7 +49,7 @@ inline std::vector<Flowing> read_coils_log(const std::filesystem::path& csv) {
   const auto columns = std::count(line.begin(), line.end(), ',') + 1;
   const auto coils = (columns - 3) / 2;
   while (std::getline(in, line)) {
-    if (in.eof()) break;  // being written
+    if (in.eof()) break;                                                  // being written
     if (std::count(line.begin(), line.end(), ',') + 1 != columns) break;  // being written
     std::vector<double> v;
     std::stringstream words(line);

@@ -44,7 +44,7 @@ class Steady(faba.Controller):
         return None
 
     def update(self, estimate, target, dt):
-        if estimate.t > 0.7:
+        if estimate.t > 0.7 and type(self) is not Steady:
             if self.wrong_at is None:
                 self.wrong_at = time.monotonic()
             wrong = self.wrong()
@@ -57,6 +57,26 @@ class Steady(faba.Controller):
 
     def restore(self, state):
         pass
+
+
+class Late(Exception):
+    """The guard ended the run, because this computer is not a real-time system."""
+
+
+def until_in_time(test):
+    """Repeats a test for which the computer was late; skips it after four attempts."""
+
+    def repeated(self):
+        for _ in range(4):
+            try:
+                return test(self)
+            except Late as e:
+                late = str(e)
+                self.doCleanups()
+                self.setUp()
+        self.skipTest(f"the computer was late four times: {late}")
+
+    return repeated
 
 
 class OnBench(unittest.TestCase):
@@ -75,7 +95,12 @@ class OnBench(unittest.TestCase):
             time.sleep(0.01)
 
     def run_it(self, controller, duration="1.5 s", **more):
-        return faba.bench(self.scene, arm=True, controller=controller, out=self.out, duration=duration, **more)
+        try:
+            return faba.bench(self.scene, arm=True, controller=controller, out=self.out, duration=duration, **more)
+        except faba.Error as e:
+            if e.code == 4 and controller.wrong_at is None:
+                raise Late(e.what) from e
+            raise
 
     def log(self):
         """Times, s, and the largest current of the coils, A, for each row of the log."""
@@ -93,6 +118,7 @@ class OnBench(unittest.TestCase):
         flowing = t[(current > 5e-3) & (t > since)]  # 5 mA: 1 % of full scale
         self.assertLess(flowing.max(initial=since) - since, BOUND)
 
+    @until_in_time
     def test_a_run_is_recorded_and_replayed(self):
         run = self.run_it(Steady(), set={"record.lossless": True})
         self.assertTrue(run.complete)
@@ -106,6 +132,7 @@ class OnBench(unittest.TestCase):
         self.assertIn("arm=True", caught.exception.what)
         self.assertFalse(self.out.exists())
 
+    @until_in_time
     def test_an_exception_switches_off(self):
         class Fails(Steady):
             def wrong(self):
@@ -117,6 +144,7 @@ class OnBench(unittest.TestCase):
         self.assertTrue((self.out / "incomplete").exists())
         self.assert_off(controller.wrong_at)
 
+    @until_in_time
     def test_nan_switches_off(self):
         class Nan(Steady):
             def wrong(self):
@@ -128,6 +156,7 @@ class OnBench(unittest.TestCase):
         self.assertTrue((self.out / "incomplete").exists())
         self.assert_off(controller.wrong_at)
 
+    @until_in_time
     def test_blocking_for_a_second_switches_off_meanwhile(self):
         class Blocks(Steady):
             def wrong(self):
@@ -138,6 +167,7 @@ class OnBench(unittest.TestCase):
         with self.assertRaises(faba.Error) as caught:
             self.run_it(controller, duration="4 s")
         self.assertEqual(caught.exception.code, 4)
+        self.assertIn("a call took 1", caught.exception.what)
         t, current = self.log()  # a row for each change
         self.assertGreater(current[t < controller.wrong_at][-1], 0.1)
         self.assertLess(current[t < controller.wrong_at + 0.9][-1], 5e-3)

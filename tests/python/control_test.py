@@ -166,10 +166,10 @@ class Raised(unittest.TestCase):
         self.assertEqual(p.stdout.readline(), "ready\n")
         time.sleep(0.5)
         p.send_signal(signal.SIGINT)
-        begun = time.monotonic()
+        started = time.monotonic()
         out, _ = p.communicate(timeout=30)
         self.assertEqual(out, "stopped\n")
-        self.assertLess(time.monotonic() - begun, 5)
+        self.assertLess(time.monotonic() - started, 5)
 
 
 class Stop(Exception):
@@ -220,7 +220,7 @@ class Recorded(unittest.TestCase):
         self.assertFalse(faba.Run(self.path / "b").complete)
 
     def test_resume_gives_the_bits_of_an_uninterrupted_run(self):
-        wanted = faba.run(SMALL, controller=Counting, out=self.path / "whole", duration="300 s", set={"record.video": False}).state_hash
+        wanted = faba.run(SMALL, controller=Counting, out=self.path / "complete", duration="300 s", set={"record.video": False}).state_hash
         interrupted_run(self.path / "cut", Counting())
         self.assertFalse(faba.Run(self.path / "cut").complete)
         self.assertEqual(faba.resume(self.path / "cut", controller=Counting).state_hash, wanted)

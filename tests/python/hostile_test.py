@@ -1,4 +1,4 @@
-"""Hostile input: every call ends with a Python exception, and the interpreter goes on."""
+"""Hostile input: every call ends with a Python exception, and the interpreter continues."""
 
 import gc
 import math
@@ -150,7 +150,7 @@ class Interpreters(unittest.TestCase):
                 f"w = faba.Worlds('''{SMALL}''', 3)\nw.reset([0, 1, 2], [1, 2, 3], [{{}}] * 3)\n")
         self.assertEqual(subprocess.run([sys.executable, "-c", code], check=False).returncode, 0)
 
-    def test_paths_that_are_directories_and_text_that_is_no_scenario(self):
+    def test_paths_that_are_directories_and_text_without_a_scenario(self):
         with tempfile.TemporaryDirectory() as folder:
             for scene in (folder, pathlib.Path(folder), "a = 1\n", SCENES / "missing.toml"):
                 with self.assertRaises(faba.Error):

@@ -15,9 +15,9 @@ struct Replayed {
   std::optional<std::uint64_t> first_difference;  ///< frame of the first different command
 };
 
-/// Computes the commands of the run in `dir` again with `parts`. Throws Error(input) if it is not a run on a bench or has
-/// no lossless video. `keep_running` is called after every frame; throws Error(interrupted) if it returns
-/// false.
+/// Computes the commands of the run in `dir` again with `parts`. Throws Error(input) if it is not a run on a
+/// bench or has no lossless video. `keep_running` is called after every frame; throws Error(interrupted) if
+/// it returns false.
 Replayed replay_run(const std::filesystem::path& dir, const Parts& parts,
                     const std::function<bool(std::uint64_t done, std::uint64_t total)>& keep_running);
 

@@ -50,8 +50,8 @@ struct CycleInput {
 };
 /// read -> estimate -> reference. Returns false if the rig has no more frames.
 bool begin_cycle(Loop& loop, CycleInput& cycle);
-/// limit -> write -> sinks, for the command that was decided. Throws Error(usage) if the number of currents is
-/// not the number of coils.
+/// limit -> write -> sinks, for the command that was decided. Throws Error(usage) if the number of currents
+/// is not the number of coils.
 void end_cycle(Loop& loop, const CycleInput& cycle, Command command);
 
 /// One control cycle: read -> estimate -> reference -> control -> limit -> write -> sinks. Returns false if

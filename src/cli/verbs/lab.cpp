@@ -9,8 +9,8 @@
 #include <filesystem>
 
 #include "cli/command_line.h"
-#include "core/error.h"
 #include "core/child.h"
+#include "core/error.h"
 #include "core/toml.h"
 #include "server/lab.h"
 

@@ -21,18 +21,17 @@ from ._faba import (  # noqa: E402
     Tick,
     Worlds,
     __version__,
-    compare_controllers,
     distance,
     flow,
     parts,
     schema,
-    simulate,
 )
 from . import study
 from ._program import Measurement
 from ._register import register_lazily as _register_lazily
+from .batch import compare_controllers, simulate
 from .control import Controller, Estimator, Reference
-from .measure import activity, calibrate, compare, drop, identify, moment, optics, scale, track
+from .measure import activity, calibrate, compare, drop, field_fit, identify, moment, optics, scale, track
 from .recorded import Run, bench, replay, resume, run
 
 field = Field
@@ -65,6 +64,7 @@ __all__ = [
     "distance",
     "drop",
     "field",
+    "field_fit",
     "flow",
     "identify",
     "moment",

@@ -243,7 +243,7 @@ def run_metrics(dir: str) -> dict[str, Any]: ...
 def simulate(
     scene: _Scene,
     parameters: Mapping[str, Any],
-    seeds: int | Sequence[int],
+    seeds: int | Sequence[int] | npt.NDArray[np.integer[Any]],
     statistic: str | Sequence[str] | Callable[[Simulation], Any],
     *,
     duration: float | str | None = None,
@@ -252,6 +252,7 @@ def simulate(
     estimator: _Part = None,
     reference: _Part = None,
     threads: int = 0,
+    progress: Callable[[int, int], None] | None = None,
 ) -> npt.NDArray[Any]: ...
 def compare_controllers(
     study: str | os.PathLike[str],
@@ -260,6 +261,7 @@ def compare_controllers(
     seeds: int | None = None,
     threads: int = 0,
     page: str | os.PathLike[str] | None = None,
+    progress: Callable[[int, int], None] | None = None,
 ) -> dict[str, Any]: ...
 def flow(
     a: npt.NDArray[Any],

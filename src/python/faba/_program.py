@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -36,10 +37,14 @@ _faba.set_program_folder(str(PROGRAM.parent))
 
 
 class Measurement(dict):  # type: ignore[type-arg]
-    """The result of a measurement: a dict with the members of `faba VERB --json`."""
+    """The result of a measurement: a dict with the members of `faba VERB --json`.
+
+    Its attribute `tracks` is None, or for track() of a single video without `out` a structured array with a row for each detection and
+    the columns of tracks.csv.
+    """
 
     tracks: npt.NDArray[Any] | None = None
-    """track() of a single video: structured array, a row for each detection, with the columns of tracks.csv."""
+    _options: Mapping[str, Any] = {}
 
     @property
     def quality(self) -> str:
@@ -48,14 +53,36 @@ class Measurement(dict):  # type: ignore[type-arg]
 
     @property
     def warnings(self) -> list[dict[str, Any]]:
-        """Violated assumptions: dicts with aspect, what, evidence and advice."""
-        return list(self.get("warnings", []))
+        """Violated assumptions: dicts with aspect, what, evidence and advice. Options are named as the arguments in Python."""
+        return [{key: _as_arguments(text, self._options) if isinstance(text, str) else text for key, text in warning.items()}
+                for warning in self.get("warnings", [])]
+
+    def __repr__(self) -> str:
+        return f"faba.Measurement({dict.__repr__(self)})"
 
 
 def error(code: int, where: str, what: str) -> Exception:
     e = _faba.Error(f"{where}: {what}" if where else what)
     e.code, e.where, e.what = code, where, what
     return e
+
+
+def _as_arguments(text: str, options: Mapping[str, Any]) -> str:
+    """A message of the program with its options as the arguments in Python; commands in backticks are kept."""
+    names = {_flag(name): f"{name}=True" if value is False or value is True else name for name, value in options.items()}
+    text = re.sub(r" \(see \S*faba [a-z -]*--help\)", "", text)
+    return re.sub(r"`[^`]*`|--[a-z0-9][a-z0-9-]*", lambda m: names.get(m[0], m[0]), text)
+
+
+def _without_folder(value: Any, folder: str) -> Any:
+    """A result in which arrays have their names, not the temporary files in which the program read them."""
+    if isinstance(value, str):
+        return re.sub(re.escape(folder) + r"/(\w+)(\.pgm|/\d+\.pgm)?", r"\1", value)
+    if isinstance(value, list):
+        return [_without_folder(one, folder) for one in value]
+    if isinstance(value, dict):
+        return {key: _without_folder(one, folder) for key, one in value.items()}
+    return value
 
 
 def _write_pgm(path: pathlib.Path, picture: np.ndarray[Any, Any], name: str) -> None:
@@ -78,6 +105,10 @@ def _input(value: Any, name: str, folder: pathlib.Path) -> str:
         return os.fspath(value)
     array = np.asarray(value)
     if array.ndim == 3:
+        if name in ("picture", "ruler"):
+            raise error(2, name, f"has the shape {array.shape}; give one grey picture, an array (height, width)")
+        if array.shape[2] in (3, 4):
+            raise error(2, name, f"has the shape {array.shape}, as a colour picture; give grey pictures, an array (frames, height, width)")
         frames = folder / name
         frames.mkdir()
         for i, picture in enumerate(array):
@@ -88,17 +119,18 @@ def _input(value: Any, name: str, folder: pathlib.Path) -> str:
     return str(path)
 
 
+def _flag(name: str) -> str:
+    return "--" + name.rstrip("_").replace("_", "-")
+
+
 def _option(name: str, value: Any) -> list[str]:
-    flag = "--" + name.rstrip("_").replace("_", "-")
+    flag = _flag(name)
     if value is None or value is False:
         return []
     if value is True:
         return [flag]
     values = value if isinstance(value, (list, tuple)) else [value]
-    words = [flag]
-    for one in values:
-        words.append(os.fspath(one) if isinstance(one, os.PathLike) else str(one))
-    return words
+    return [f"{flag}={os.fspath(one) if isinstance(one, os.PathLike) else one}" for one in values]
 
 
 def call(verb: Sequence[str], inputs: Sequence[tuple[str, Any]] = (), options: Mapping[str, Any] | None = None,
@@ -122,7 +154,7 @@ def call(verb: Sequence[str], inputs: Sequence[tuple[str, Any]] = (), options: M
         except OSError as e:
             raise error(1, str(PROGRAM), f"cannot be started ({e.strerror}); set FABA_PROGRAM to the program faba") from e
         out, messages = _wait(process)
-    return _result(process.returncode, out, messages, codes)
+        return _result(process.returncode, out, messages, codes, options or {}, folder)
 
 
 def call_track(verb: Sequence[str], inputs: Sequence[tuple[str, Any]], options: Mapping[str, Any]) -> Measurement:
@@ -151,14 +183,18 @@ def _wait(process: subprocess.Popen[bytes]) -> tuple[bytes, bytes]:
         raise
 
 
-def _result(code: int, out: bytes, messages: bytes, codes: Sequence[int]) -> Measurement:
+def _result(code: int, out: bytes, messages: bytes, codes: Sequence[int], options: Mapping[str, Any], folder: str) -> Measurement:
     text = out.decode(errors="replace").strip()
     try:
         result = json.loads(text.splitlines()[-1]) if text else {}
     except ValueError:
         result = {}
     if code in codes:
-        return Measurement(result)
+        measured = Measurement(_without_folder(result, folder))
+        measured._options = dict(options)
+        return measured
     stated = result.get("error", {}) if isinstance(result, dict) else {}
     last = messages.decode(errors="replace").strip().splitlines()
-    raise error(code, stated.get("where", ""), stated.get("what", last[-1] if last else f"the program ended with code {code}"))
+    what = stated.get("what", last[-1] if last else f"the program ended with code {code}")
+    where, what = (_as_arguments(_without_folder(text, folder), options) for text in (stated.get("where", ""), what))
+    raise error(code, where, what)

@@ -49,7 +49,7 @@ class _AfterImport(importlib.abc.MetaPathFinder):
                 sys.meta_path.remove(self)
                 register()
 
-        spec.loader.exec_module = execute_and_register  # type: ignore[method-assign]
+        setattr(spec.loader, "exec_module", execute_and_register)
         return spec
 
 

@@ -21,7 +21,8 @@ class _Part:
         def state(self): return {"sum": self.sum}            # numbers, texts, lists and dicts
         def restore(self, state): self.sum = state["sum"]
 
-    to be resumed from a checkpoint and replayed. An object without attributes needs none.
+    to be resumed from a checkpoint and replayed; restore() is called after start(). An object without attributes needs none.
+    An object that several runs use keeps its attributes: initialise them in start(), or give the class.
     """
 
     context: Context
@@ -40,7 +41,8 @@ class Controller(_Part):
         target : Target; its position is NaN without a setpoint
         dt : float, s since the last call
 
-        Returns Drift(x, y), the desired mean velocity in m/s, or one current for each coil, A.
+        Returns one current for each coil, A, such as self.context.currents_for_direction(...) or currents_for_field(...) gives, or
+        Drift(x, y), the desired mean velocity, m/s, for cells whose speed is proportional to the field (models basic and adapted).
         """
         raise NotImplementedError("a controller needs the function update(estimate, target, dt)")
 

@@ -64,8 +64,8 @@ def activity(
     out : Write the activity signatures, as CSV
     report : Write a page with all figures, as HTML
     picture : Single video: write the flow of the pair with the largest activity, before and after filtering, as PNG
-    force : Replace existing files, and with --folder the results of another study
-    folder : With --engine: directory of the study; default: runs/activity. An incomplete study is resumed
+    force : Replace existing files, and with folder the results of another study
+    folder : With engine: directory of the study; default: runs/activity. An incomplete study is resumed
     engine : Where the tasks of the study run: local (processes on this machine), parallel (GNU parallel), slurm,
         dask, or a TOML file with a table [engine]; default: threads of this process
     engine_set : Set a value of the table [engine], such as partition=short
@@ -97,9 +97,10 @@ def activity(
     sigma : Standard deviation of the Gaussian weight of the neighbourhood (farneback, default: 1.1 px)
     quality : OpenCV preset: accuracy against computing time (dis, default: medium)
 
-    Pictures may be arrays (height, width), videos arrays (frames, height, width) with `fps`.
+    A video may be an array (frames, height, width) of grey values from 0 to 255 (8 bit) or 65535 (16 bit); give its
+    `fps`.
 
-    Returns a Measurement: a dict with the members of `faba activity --json`. Raises faba.Error.
+    Returns a Measurement: a dict with the members of `faba activity --json` (docs/formats/cli.md). Raises faba.Error.
     """
     return call(["activity"], [("videos", videos)], {
         "direction": direction,
@@ -164,7 +165,8 @@ def calibrate(
     scheduler : Address of a Dask scheduler, such as tcp://node1:8786
     sshlogin : Host for GNU parallel, such as 4/user@pc2; may be repeated
 
-    Returns a Measurement: a dict with the members of `faba calibrate --json`. Raises faba.Error.
+    Returns a Measurement: a dict with the members of `faba calibrate --json` (docs/formats/cli.md). Raises
+    faba.Error.
     """
     return call(["calibrate"], [("study", study)], {
         "out": out,
@@ -257,9 +259,10 @@ def compare(
     sigma : Standard deviation of the Gaussian weight of the neighbourhood (farneback, default: 1.1 px)
     quality : OpenCV preset: accuracy against computing time (dis, default: medium)
 
-    Pictures may be arrays (height, width), videos arrays (frames, height, width) with `fps`.
+    A video may be an array (frames, height, width) of grey values from 0 to 255 (8 bit) or 65535 (16 bit); give its
+    `fps`.
 
-    Returns a Measurement: a dict with the members of `faba compare --json`. Raises faba.Error.
+    Returns a Measurement: a dict with the members of `faba compare --json` (docs/formats/cli.md). Raises faba.Error.
     """
     return call(["compare"], [("reference", reference), ("runs", runs)], {
         "direction": direction,
@@ -311,13 +314,47 @@ def drop(
     stages : Write a picture of each stage of the search into this folder, as PNG
     force : Replace existing pictures
 
-    Pictures may be arrays (height, width), videos arrays (frames, height, width) with `fps`.
+    A picture may be an array (height, width) of grey values from 0 to 255 (8 bit) or 65535 (16 bit).
 
-    Returns a Measurement: a dict with the members of `faba drop --json`. Raises faba.Error.
+    Returns a Measurement: a dict with the members of `faba drop --json` (docs/formats/cli.md). Raises faba.Error.
     """
     return call(["drop"], [("picture", picture)], {
         "overlay": overlay,
         "stages": stages,
+        "force": force,
+    })
+
+
+def field_fit(
+    rig: Path,
+    *,
+    map: Path,
+    columns: Sequence[Text] | Text | None = None,
+    units: Sequence[Text] | Text | None = None,
+    out: Text | None = None,
+    picture: Text | None = None,
+    force: bool = False,
+) -> Measurement:
+    """Fit a coil system to a measured field: gain, shift and background field.
+
+    rig : Coil system file (TOML), with the currents of the measurement
+    map : Measured field, text or HDF5: positions and components, or a scan along an axis
+    columns : Names of the columns of a text file, in order: x, y, z, rho, bx, by, bz, brho, b (the component along
+        the only coordinate), - (not used); default: those in its header
+    units : Units of the columns, or one of length and one of field, such as cm,G; default: those in the header
+    out : Write a coil system file (.toml) with the fitted values
+    picture : Write a plot of the residuals, as SVG
+    force : Replace existing files
+
+    Returns a Measurement: a dict with the members of `faba field fit --json` (docs/formats/cli.md). Raises
+    faba.Error.
+    """
+    return call(["field", "fit"], [("rig", rig)], {
+        "map": map,
+        "columns": columns,
+        "units": units,
+        "out": out,
+        "picture": picture,
         "force": force,
     })
 
@@ -351,7 +388,7 @@ def identify(
     from_ : Start of the part of the video that is used, s; default: start of the video
     to : End of the part of the video that is used, s; default: end of the video
 
-    Returns a Measurement: a dict with the members of `faba identify --json`. Raises faba.Error.
+    Returns a Measurement: a dict with the members of `faba identify --json` (docs/formats/cli.md). Raises faba.Error.
     """
     return call(["identify"], [("study", study)], {
         "out": out,
@@ -377,7 +414,7 @@ def moment(
     study : Study file (TOML): the body of the cells, and videos with field and reversals
     threads : Number of threads; default: all threads of the machine. Does not change the result
 
-    Returns a Measurement: a dict with the members of `faba moment --json`. Raises faba.Error.
+    Returns a Measurement: a dict with the members of `faba moment --json` (docs/formats/cli.md). Raises faba.Error.
     """
     return call(["moment"], [("study", study)], {
         "threads": threads,
@@ -424,7 +461,7 @@ def optics(
     cells_per_mm2 : Cells in focus per square millimetre of the picture; default: 1000.0
     drop_radius : Radius of the drop, in the plane of the picture; default: 0.00088 m
 
-    Returns a Measurement: a dict with the members of `faba optics --json`. Raises faba.Error.
+    Returns a Measurement: a dict with the members of `faba optics --json` (docs/formats/cli.md). Raises faba.Error.
     """
     return call(["optics"], [], {
         "objective": objective,
@@ -461,9 +498,9 @@ def scale(
     overlay : Write the picture with the detected marks, as PNG
     force : Replace existing files
 
-    Pictures may be arrays (height, width), videos arrays (frames, height, width) with `fps`.
+    A picture may be an array (height, width) of grey values from 0 to 255 (8 bit) or 65535 (16 bit).
 
-    Returns a Measurement: a dict with the members of `faba scale --json`. Raises faba.Error.
+    Returns a Measurement: a dict with the members of `faba scale --json` (docs/formats/cli.md). Raises faba.Error.
     """
     return call(["scale"], [("ruler", ruler)], {
         "tick": tick,
@@ -482,6 +519,7 @@ def track(
     threads: int | None = None,
     um_per_px: Text | None = None,
     out: Sequence[Text] | Text | None = None,
+    format: Sequence[Text] | Text | None = None,
     folder: Text | None = None,
     result: Text | None = None,
     edits: Text | None = None,
@@ -514,7 +552,7 @@ def track(
     """Detect and track cells or beads in videos and measure how they move.
 
     videos : Video, TIFF stack, folder of pictures, quoted file name pattern, or run directory; several give a folder
-        of results each, see --folder
+        of results each, see folder
     fps : Frames per second, if the video states none or a wrong value; default: that of the video
     from_ : Start of the part of the video that is used, s; default: start of the video
     to : End of the part of the video that is used, s; default: end of the video
@@ -522,12 +560,14 @@ def track(
     um_per_px : Scale: micrometres per pixel, or a calibration file from `faba scale`; default: that of a run
         directory, else results in px
     out : Write the tracks, as CSV or HDF5 by the file extension; may be given twice
+    format : Format of out: csv, hdf5, trackmate or napari (CSV files for these programs); default: csv or hdf5 by the
+        file extension; once, or once for each out
     folder : Several videos: directory of the results; default: runs/tracks. Each video has a folder in it, and
         outputs are names of files in this folder. An incomplete directory is resumed
-    result : Write tracks.csv, per_track.csv, tracks.html and track.json into this folder: the result that --edits and
+    result : Write tracks.csv, per_track.csv, tracks.html and track.json into this folder: the result that edits and
         the page of `faba lab` read
-    edits : Do not track: apply the cuts and changes of this file to a folder that --result has written, and write the
-        tracks that are used to --out, their features to --per-track
+    edits : Do not track: apply the cuts and changes of this file to a folder that result has written, and write the
+        tracks that are used to out, their features to per_track
     swarm : Write centroid and covariance of the swarm in each frame, as CSV
     overlay : Write the video with the tracks, as MP4 or AVI
     report : Write a page with all figures, as HTML
@@ -559,9 +599,11 @@ def track(
     scheduler : Address of a Dask scheduler, such as tcp://node1:8786
     sshlogin : Host for GNU parallel, such as 4/user@pc2; may be repeated
 
-    Pictures may be arrays (height, width), videos arrays (frames, height, width) with `fps`.
+    A video may be an array (frames, height, width) of grey values from 0 to 255 (8 bit) or 65535 (16 bit); give its
+    `fps`.
 
-    Returns a Measurement: a dict with the members of `faba track --json`. Raises faba.Error.
+    Returns a Measurement: a dict with the members of `faba track --json` (docs/formats/cli.md). For a single video
+    without `out`, its attribute `tracks` has a row for each detection. Raises faba.Error.
     """
     return call_track(["track"], [("videos", videos)], {
         "fps": fps,
@@ -570,6 +612,7 @@ def track(
         "threads": threads,
         "um_per_px": um_per_px,
         "out": out,
+        "format": format,
         "folder": folder,
         "result": result,
         "edits": edits,

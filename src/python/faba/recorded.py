@@ -11,11 +11,11 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _faba, _program
+from ._progress import Progress, reporter
 from .control import Controller, Estimator, Reference
 
 Scene = Union[str, "os.PathLike[str]", Mapping[str, Any]]
 Part = Union[None, str, Mapping[str, Any], Controller, Estimator, Reference, type]
-Progress = Optional[Callable[[int, int], None]]
 
 
 class Run:
@@ -28,6 +28,15 @@ class Run:
         self.path = pathlib.Path(directory)
         if not self.path.is_dir():
             raise _program.error(3, str(self.path), "directory not found; give a run directory, such as runs/steer-1")
+        if not (self.path / "scenario.toml").is_file():
+            raise _program.error(3, str(self.path), "is not a run directory: scenario.toml not found; give the directory of a run")
+
+    def _file(self, name: str) -> pathlib.Path:
+        """A file of the run. Raises faba.Error if it does not exist."""
+        if (self.path / name).is_file():
+            return self.path / name
+        why = "the run did not record it" if self.complete else "the run is incomplete; continue it with faba.resume()"
+        raise _program.error(3, str(self.path / name), f"file not found; {why}")
 
     @property
     def complete(self) -> bool:
@@ -36,8 +45,8 @@ class Run:
 
     @property
     def manifest(self) -> dict[str, Any]:
-        """The content of manifest.json."""
-        return dict(json.loads((self.path / "manifest.json").read_text()))
+        """The content of manifest.json: what was run, with which program, and `notes` on the scenario."""
+        return dict(json.loads(self._file("manifest.json").read_text()))
 
     @property
     def state_hash(self) -> str:
@@ -48,36 +57,45 @@ class Run:
     def series(self) -> npt.NDArray[Any]:
         """series.csv as a structured array: one row for each frame, columns by name; NaN where there is no value.
 
-        pandas.DataFrame(run.series) makes a table of it.
+        The names end with the units: t_s, distance_px, current_0_a. true_* are known in a simulation only, estimated_* are what the
+        estimator found. pandas.DataFrame(run.series) makes a table of it.
         """
-        with open(self.path / "series.csv") as file:
-            names = file.readline().strip().split(",")
-            values = np.loadtxt(file, delimiter=",", ndmin=2, converters=lambda s: float(s or "nan"))
-        rows = np.zeros(len(values), dtype=[(name, float) for name in names])
-        for i, name in enumerate(names):
-            rows[name] = values[:, i] if len(values) else []
-        return rows
+        lines = self._file("series.csv").read_text().splitlines(keepends=True)
+        if not lines[-1].endswith("\n"):  # the process was killed while it wrote
+            lines.pop()
+        rows = [tuple(float(v or "nan") for v in line.rstrip("\n").split(",")) for line in lines[1:]]
+        return np.array(rows, dtype=[(name, float) for name in lines[0].strip().split(",")])
 
     @property
     def metrics(self) -> dict[str, Any]:
-        """Metrics of the control, as in `faba run --json`: settling time, steady-state error, path length, ..."""
+        """Metrics of the control, as in `faba run --json`: settling_time_s, steady_rms_px, ...; None: undefined for the run."""
         return dict(_faba.run_metrics(str(self.path)))
 
     @property
     def tracks(self) -> Any:
-        """tracks.h5: an xarray.Dataset with the positions of all cells if xarray is installed, else an h5py.File."""
-        file = self.path / "tracks.h5"
+        """tracks.h5, the true positions of the cells of a simulation.
+
+        An xarray.Dataset with position_px (frame, cell, axis), px, y down, and t_s (frame), s, if xarray is installed; else an
+        h5py.File with the same arrays.
+        """
+        file = self._file("tracks.h5")
         try:
             import xarray
         except ImportError:
             import h5py
 
             return h5py.File(file, "r")
-        return xarray.open_dataset(file, engine="h5netcdf")
+        try:
+            return xarray.open_dataset(file, engine="h5netcdf")
+        except ValueError:  # files of earlier versions do not name their dimensions
+            return _dataset(file)
 
     @property
     def video(self) -> pathlib.Path | None:
-        """Path of the video, lossless if there is one; None without a video."""
+        """Path of the video, lossless if there is one; None without a video.
+
+        By default it shows a drawing. Record with as_seen=True for a video that can be measured.
+        """
         for name in ("video.avi", "video.mp4"):
             if (self.path / name).exists():
                 return self.path / name
@@ -85,6 +103,18 @@ class Run:
 
     def __repr__(self) -> str:
         return f"<faba.Run {self.path}{'' if self.complete else ', incomplete'}>"
+
+
+def _dataset(file: pathlib.Path) -> Any:
+    """A Dataset of a file of tracks without dimension scales."""
+    import h5py
+    import xarray
+
+    with h5py.File(file, "r") as f:
+        dimensions = {"position_px": ("frame", "cell", "axis"), "responding": ("frame", "cell"), "t_s": ("frame",), "frame": ("frame",)}
+        arrays = {name: (dims, f[name][()]) for name, dims in dimensions.items() if name in f and f[name].ndim == len(dims)}
+        coordinates = {"frame": arrays.pop("frame"), "t_s": arrays.pop("t_s"), "axis": ["x", "y"]}
+        return xarray.Dataset(arrays, coordinates, dict(f.attrs))
 
 
 def run(scene: Scene, *, out: str | os.PathLike[str] | None = None, seed: int | None = None, set: Mapping[str, Any] | None = None,
@@ -98,23 +128,27 @@ def run(scene: Scene, *, out: str | os.PathLike[str] | None = None, seed: int | 
     threads : int, 0: all; does not change the result
     force : replace an earlier run in the directory
     as_seen : record videos as the camera sees them, not drawings
-    progress : function of the number of frames done and their total, called ten times per second
+    progress : function of the number of frames done and their total, called ten times per second; None: a bar in a terminal, False: nothing
 
-    Returns the Run. An exception of a part in Python ends the run; its directory stays incomplete. Ctrl-C stops it with a checkpoint.
+    Returns the Run. An exception of a part in Python ends the run; its directory stays incomplete. Ctrl-C stops it with a checkpoint, from
+    which resume() continues. An object that is given as a part keeps its attributes for the next run: initialise them in start(), or give
+    the class. Raises faba.Error.
     """
     return Run(_faba.run_scene(scene, out=out, seed=seed, set=set, duration=duration, controller=controller, estimator=estimator,
-                               reference=reference, threads=threads, force=force, as_seen=as_seen, progress=progress))
+                               reference=reference, threads=threads, force=force, as_seen=as_seen, progress=reporter(progress, "simulating")))
 
 
 def resume(directory: str | os.PathLike[str], *, controller: Part = None, estimator: Part = None, reference: Part = None, threads: int = 0,
            progress: Progress = None) -> Run:
     """Continues an interrupted run from its last checkpoint; the result is bit-identical to that of an uninterrupted one.
 
-    Parts in Python are imported by the name that the run stores, or given as objects or classes. They need state() and restore() if
-    they keep values in attributes.
+    directory : of a run that Ctrl-C, an error or a failure of the machine stopped; its file `incomplete` exists
+    controller, estimator, reference : parts in Python of that run, as objects or classes; default: imported by the name that the run
+        stores. They need state() and restore() if they keep values in attributes
+    threads, progress : as of run()
     """
     _faba.resume_run(os.fspath(directory), controller=controller, estimator=estimator, reference=reference, threads=threads,
-                     progress=progress)
+                     progress=reporter(progress, "simulating"))
     return Run(directory)
 
 
@@ -127,15 +161,19 @@ def bench(scene: Scene, *, arm: bool = False, out: str | os.PathLike[str] | None
     Other arguments : as of run()
 
     All currents pass the limits and the guard, which is a process of its own. They are zero when a part raises, blocks longer than
-    the guard permits, or this process ends in any way.
+    the guard permits, or this process ends in any way. Returns the Run. Raises faba.Error with code 4 for a failure of camera, driver
+    or guard.
     """
     return Run(_faba.bench_run(scene, arm=arm, out=out, seed=seed, set=set, duration=duration, controller=controller,
-                               estimator=estimator, reference=reference, force=force, progress=progress))
+                               estimator=estimator, reference=reference, force=force, progress=reporter(progress, "bench")))
 
 
 def replay(directory: str | os.PathLike[str], *, controller: Part = None, estimator: Part = None, reference: Part = None) -> dict[str, Any]:
     """Computes the commands of a run on a bench again from its lossless video, and compares them bit by bit.
 
-    Returns a dict: recorded, equal_commands, same, first_difference.
+    directory : of a run that was recorded with set={"record.lossless": True}
+    controller, estimator, reference : parts in Python of that run; default: imported by the name that the run stores
+
+    Returns a dict: recorded (number of commands), equal_commands, same (bool), first_difference (frame, or None).
     """
     return dict(_faba.replay_run(os.fspath(directory), controller=controller, estimator=estimator, reference=reference))

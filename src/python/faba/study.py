@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 import pathlib
 import subprocess
@@ -9,6 +10,7 @@ import time
 from typing import Any, Callable, Optional
 
 from . import _program
+from ._progress import Progress, reporter
 
 
 def _work(program: str, directory: str, tasks: str, results: str) -> str:
@@ -49,7 +51,7 @@ def run(
     client: Any,
     out: str | os.PathLike[str] | None = None,
     chunks_per_worker: int = 4,
-    progress: Optional[Callable[[int, int], None]] = None,
+    progress: Progress = None,
 ) -> pathlib.Path:
     """Computes a study on the workers of a client: identify, calibrate or compare-controllers.
 
@@ -69,7 +71,7 @@ def run(
     while int(plan.get("open", 0)) > 0:
         numbers = _numbers(str(plan["tasks"]))
         before = len(numbers)
-        message = _compute(client, directory, numbers, chunks_per_worker, progress)
+        message = _compute(client, directory, numbers, chunks_per_worker, reporter(progress, "tasks"))
         plan = _program.call(["study", "collect"], [("dir", str(directory))], codes=(0, 10))
         failures = failures + 1 if message and int(plan.get("open", 0)) >= before else 0
         if failures == 2:
@@ -81,8 +83,7 @@ def _compute(
     client: Any, directory: pathlib.Path, numbers: list[int], chunks: int, progress: Optional[Callable[[int, int], None]]
 ) -> str:
     """Computes tasks; returns the last message of a worker that failed, or an empty text."""
-    from distributed import as_completed
-
+    distributed: Any = importlib.import_module("distributed")
     workers = max(1, sum(client.nthreads().values()))
     parts = min(len(numbers), max(1, chunks) * workers)
     pieces = [numbers[i::parts] for i in range(parts)]
@@ -95,7 +96,7 @@ def _compute(
         for i, piece in enumerate(pieces)
     }
     message, done = "", 0
-    for future in as_completed(futures):
+    for future in distributed.as_completed(futures):
         done += futures[future]
         message = str(future.result()) or message if future.status == "finished" else str(future.exception())
         if progress:

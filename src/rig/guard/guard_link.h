@@ -19,7 +19,8 @@ class GuardLink {
  public:
   /// Throws Error(device) if the process cannot be started or the device cannot be opened. The guard starts
   /// disarmed.
-  explicit GuardLink(const GuardSetup& setup, const std::filesystem::path& guard = program_file("faba-coil-guard"));
+  explicit GuardLink(const GuardSetup& setup,
+                     const std::filesystem::path& guard = program_file("faba-coil-guard"));
   ~GuardLink();
   GuardLink(const GuardLink&) = delete;
   GuardLink& operator=(const GuardLink&) = delete;

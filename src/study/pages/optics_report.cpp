@@ -11,7 +11,8 @@ namespace {
 constexpr double kUm = 1e6;  // um per m
 
 Json verdict_json(const OpticsVerdict& v) {
-  Json j{{"measurement", word_of(v.measurement)}, {"title", title_of(v.measurement)}, {"evidence", v.evidence}};
+  Json j{
+      {"measurement", word_of(v.measurement)}, {"title", title_of(v.measurement)}, {"evidence", v.evidence}};
   add_quality(j, v.warnings);
   return j;
 }

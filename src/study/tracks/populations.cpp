@@ -20,9 +20,9 @@ constexpr std::size_t kMostComponents = 3;
 constexpr double kSmallest = 0.05;  // fraction of a population
 // Of one of three: a third component also fits the flank of a skewed distribution.
 constexpr double kSmallestOfThree = 0.15;
-constexpr double kLeastPenalty = 2;          // per parameter, for few tracks: that of Akaike's criterion
-constexpr double kSeparation = 2;            // Ashman's D: two normal distributions have two maxima above it
-constexpr double kLeastLogSpread = 0.05;     // of the logarithm of the speed
+constexpr double kLeastPenalty = 2;       // per parameter, for few tracks: that of Akaike's criterion
+constexpr double kSeparation = 2;         // Ashman's D: two normal distributions have two maxima above it
+constexpr double kLeastLogSpread = 0.05;  // of the logarithm of the speed
 // Width of the bins of the logarithm for the fit: a tenth of the least spread, whose variance they change by
 // 0.1 %.
 constexpr double kBin = 0.1 * kLeastLogSpread;

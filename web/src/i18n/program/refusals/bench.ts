@@ -56,7 +56,7 @@ export const bench: Record<string, string> = {
   'cannot be combined with one_of; choose one of them': 'não pode ser combinado com one_of; escolha um deles',
   '"{}" does not use the coils; choose one of {}': '"{}" não usa as bobinas; escolha um de {}',
   // rig/guard
-  'cannot read the path of the program: {}': 'não foi possível ler o caminho do programa: {}',
+  'the folder of this program cannot be read: {}': 'não foi possível ler a pasta deste programa: {}',
   'cannot start {}: {}': 'não foi possível iniciar {}: {}',
   'coil {}: change of {} A; at most {} A between these frames': 'bobina {}: mudança de {} A; no máximo {} A entre estes quadros',
   'coil {}: current is not finite': 'bobina {}: a corrente não é finita',
