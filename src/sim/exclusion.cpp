@@ -12,6 +12,14 @@ namespace {
 
 constexpr std::size_t kCopyBlock = 8192, kSitesAtOnce = 1024;
 
+// One for all worlds that this thread steps: its bitmaps are empty between two calls, and those of many worlds
+// would not fit into the caches together.
+TwoPhase& two_phase(const Grid& grid) {
+  thread_local TwoPhase shared{Grid{}};
+  shared.use(grid);
+  return shared;
+}
+
 }  // namespace
 
 Schema<Exclusion::Params> Exclusion::schema() {
@@ -33,7 +41,7 @@ Schema<Exclusion::Params> Exclusion::schema() {
 }
 
 Exclusion::Exclusion(const Params& p, const Arena& arena, std::uint64_t seed)
-    : p_(p), grid_(arena.grid()), seed_(seed), two_phase_(grid_) {
+    : p_(p), grid_(arena.grid()), seed_(seed) {
   if (!active()) return;
   const std::int32_t sites = grid_.columns * grid_.rows;
   taken_ = Sites(std::size_t(sites));
@@ -141,7 +149,7 @@ void Exclusion::resolve(State& s, std::span<float> to_x, std::span<float> to_y, 
   if (p_.order == Order::published) return published(s, to_x, to_y);
   const auto key = draw(seed_, kContestDraws, 0, std::uint32_t(s.step));
   const auto x = s.agents["x"], y = s.agents["y"];
-  two_phase_.resolve(x, y, to_x, to_y, taken_, std::uint64_t{key[0]} << 32 | key[1], p_.follow, pool);
+  two_phase(grid_).resolve(x, y, to_x, to_y, taken_, std::uint64_t{key[0]} << 32 | key[1], p_.follow, pool);
   pool.for_blocks(x.size(), kCopyBlock, [&](std::size_t begin, std::size_t end) {
     std::copy(&to_x[begin], &to_x[begin] + (end - begin), &x[begin]);
     std::copy(&to_y[begin], &to_y[begin] + (end - begin), &y[begin]);

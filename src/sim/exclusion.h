@@ -50,7 +50,6 @@ class Exclusion {
   Params p_;
   Grid grid_;
   std::uint64_t seed_;
-  TwoPhase two_phase_;
   Sites taken_;  ///< by a cell, or outside of the edge
 };
 

@@ -21,6 +21,8 @@ namespace faba {
 class TwoPhase {
  public:
   explicit TwoPhase(const Grid& grid) : grid_(grid) {}
+  /// The next calls are for another grid.
+  void use(const Grid& grid) { grid_ = grid; }
 
   /// Priority of a wish; the smallest value is granted.
   static std::uint64_t priority(std::uint64_t key, std::int32_t cell, std::uint32_t agent);
