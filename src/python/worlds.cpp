@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/sinks/drawn_swarm.h"
@@ -13,7 +14,12 @@
 namespace faba::python {
 namespace {
 
-float finite(double v) { return std::isfinite(v) ? float(v) : 0.0f; }
+// Observations are limited, in units of half the view's height, so that no policy meets an extreme value.
+constexpr double kMostObserved = 10;
+
+float observed(double v) {
+  return std::isfinite(v) ? float(std::clamp(v, -kMostObserved, kMostObserved)) : 0.0f;
+}
 
 double half_height(const ControlContext& c) { return 0.5 * c.frame.height * c.scale.m_per_px; }
 
@@ -49,9 +55,9 @@ void PolicyInput::fill(float* to, const ControlContext& c, const Estimate& e, co
                                  std::sqrt(std::max(0.0, e.cov.xx)) / length,
                                  std::sqrt(std::max(0.0, e.cov.yy)) / length,
                                  double(e.visible > 0)};
-  for (const double v : values) *to++ = finite(v);
+  for (const double v : values) *to++ = observed(v);
   for (std::size_t k = 0; k < c.max_current.size(); ++k)
-    *to++ = k < last.current.size() ? finite(last.current[k] / c.max_current[k]) : 0.0f;
+    *to++ = k < last.current.size() ? observed(last.current[k] / c.max_current[k]) : 0.0f;
 }
 
 Command PolicyOutput::command(const ControlContext& c, Vec2 centroid, const double* action) const {
@@ -93,9 +99,10 @@ void Worlds::look(World& w) const {
   w.radius = true_radius(state, w.centroid);
 }
 
+// As step(): a thread has the same worlds, and so their cells in its cache, in each call.
 void Worlds::reset(const std::vector<std::size_t>& which, const std::vector<std::uint64_t>& seeds,
                    const std::vector<std::vector<std::pair<std::string, Json>>>& sets) {
-  pool_.run_uneven(which.size(), [&](std::size_t k) {
+  pool_.run(which.size(), [&](std::size_t k) {
     Document d = scene_;
     for (const auto& [path, value] : sets[k]) set_value(d, path, value, "sets");
     d.set("seed", Json(seeds[k]), "seed");
@@ -110,7 +117,7 @@ void Worlds::reset(const std::vector<std::size_t>& which, const std::vector<std:
 
 void Worlds::step(const double* actions) {
   const std::size_t n = outputs();
-  pool_.run_uneven(worlds_.size(), [&](std::size_t i) {
+  pool_.run(worlds_.size(), [&](std::size_t i) {
     World& w = worlds_[i];
     if (w.finished) return;
     end_cycle(w.simulation->loop(), w.cycle,
@@ -165,7 +172,8 @@ class PyWorlds {
       throw Error(Errc::usage, "actions", fmt::format("must have the shape ({}, {})", n, k));
     for (py::ssize_t i = 0; i < actions.size(); ++i)
       if (!std::isfinite(actions.data()[i])) throw Error(Errc::usage, "actions", "must be finite");
-    const std::vector<double> copy(actions.data(), actions.data() + actions.size());
+    std::vector<double> copy(actions.data(), actions.data() + actions.size());
+    for (double& a : copy) a = std::clamp(a, -1.0, 1.0);
     raised_.run([&] { worlds_.step(copy.data()); });
   }
 
@@ -264,7 +272,7 @@ void bind_worlds(py::module_& m) {
       .def("reset", &PyWorlds::reset, py::arg("which"), py::arg("seeds"), py::arg("sets"),
            "Starts worlds again, each with a seed and a dict of changes of the scenario.")
       .def("step", &PyWorlds::step, py::arg("actions"),
-           "One control cycle of each world; `actions`: array (worlds, size of an action).")
+           "One control cycle of each world; `actions`: array (worlds, size of an action), limited to -1 to 1.")
       .def_property_readonly("number", &PyWorlds::number, "int: number of worlds")
       .def_property_readonly(
           "inputs", [](const PyWorlds& w) { return w.worlds().inputs(); }, "int: size of an observation")
@@ -273,7 +281,7 @@ void bind_worlds(py::module_& m) {
       .def("observations", &PyWorlds::observations,
            "float32 array (worlds, inputs): estimated centroid (2), setpoint (2), velocity (2), standard\n"
            "deviations (2), 1 with visible cells, previous currents; lengths in units of half the view's "
-           "height.")
+           "height, limited to -10 to 10.")
       .def(
           "true_centroids", [](PyWorlds& w) { return w.vectors([](const W& one) { return one.centroid; }); },
           "float array (worlds, 2): m, world frame")
@@ -281,6 +289,13 @@ void bind_worlds(py::module_& m) {
           "true_radii",
           [](PyWorlds& w) { return w.numbers<double>([](const W& one) { return one.radius; }); },
           "float array (worlds,): root-mean-square distance of the cells from their centroid, m")
+      .def(
+          "true_distances",
+          [](PyWorlds& w) {
+            return w.numbers<double>(
+                [](const W& one) { return norm(one.centroid - one.cycle.target.position); });
+          },
+          "float array (worlds,): distance of the centroid from the setpoint, m")
       .def(
           "setpoints",
           [](PyWorlds& w) { return w.vectors([](const W& one) { return one.cycle.target.position; }); },

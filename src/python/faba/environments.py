@@ -123,13 +123,11 @@ class _Task:
 
     def observations(self) -> npt.NDArray[np.float32]:
         """Of all worlds."""
-        return np.clip(self.worlds.observations(), -10.0, 10.0)
+        return self.worlds.observations()
 
     def true_errors(self) -> Floats:
         """Distance of each swarm from its setpoint, in units of half the height of the view."""
-        return np.asarray(
-            np.linalg.norm(self.worlds.true_centroids() - self.worlds.setpoints(), axis=1) / self.worlds.half_height
-        )
+        return self.worlds.true_distances() / self.worlds.half_height
 
     def rewards(self) -> Floats:
         """Minus the true distance from the setpoint, in units of half the height of the view, for each frame."""
@@ -207,7 +205,7 @@ class _Env(gymnasium.Env[npt.NDArray[np.float32], npt.NDArray[np.float32]]):
     def step(
         self, action: npt.NDArray[np.float32]
     ) -> tuple[npt.NDArray[np.float32], float, bool, bool, dict[str, Any]]:
-        self._task.worlds.step(np.clip(np.asarray(action, dtype=float), -1.0, 1.0)[np.newaxis])
+        self._task.worlds.step(np.asarray(action, dtype=float)[np.newaxis])
         observation = self._task.observations()[0]
         reward = float(self._task.rewards()[0])
         ended = bool(self._task.ended()[0])
@@ -290,7 +288,7 @@ class _VectorEnv(gymnasium.vector.VectorEnv[npt.NDArray[np.float32], npt.NDArray
         self, actions: npt.NDArray[np.float32]
     ) -> tuple[npt.NDArray[np.float32], Floats, npt.NDArray[np.bool_], npt.NDArray[np.bool_], dict[str, Any]]:
         again = np.flatnonzero(self._ended)
-        self._task.worlds.step(np.clip(np.asarray(actions, dtype=float), -1.0, 1.0))
+        self._task.worlds.step(actions)
         if len(again):  # the action of an ended world is not used
             self._start(again)
         rewards, terminated = self._task.rewards(), self._task.ended()

@@ -31,7 +31,7 @@ class PolicyController(Controller):
         raise NotImplementedError("define the function policy(observation)")
 
     def update(self, estimate: _faba.Estimate, target: _faba.Target, dt: float) -> Floats:
-        observation = np.clip(_faba.policy_input(self.context, estimate, target, self.last), -10.0, 10.0)
+        observation = _faba.policy_input(self.context, estimate, target, self.last)
         action = np.clip(np.asarray(self.policy(observation), dtype=float), -1.0, 1.0)
         if self.action == "currents":
             currents = action * self.context.max_currents
