@@ -8,14 +8,18 @@ SSH = """#!/bin/bash
 while [ "$1" != -- ]; do host=$1; shift; done
 shift
 echo "$host" >> FOLDER/ssh.log
-without() { path=$1; shift; exec bash -c "${*//"$path"//absent}"; }
 case $host in
   lab1) [ -e FOLDER/lost ] || exec bash -c "$*" ;;
-  bare) without PROGRAM "$@" ;;
-  apart) without FOLDER/hosts "$@" ;;
+  bare | apart) SHELL=FOLDER/bin/$host exec bash -c "$*" ;;
 esac
 echo "ssh: connect to host $host port 22: No route to host" >&2
 exit 255
+"""
+
+# The shell of a host on which a path leads nowhere. GNU parallel gives it a file with the command.
+SHELL = """#!/bin/bash
+command=$(< "$1")
+exec bash -c "${command//"PATH"//absent}"
 """
 
 
@@ -23,9 +27,14 @@ def run(test):
     path = os.environ["PATH"]
     programs = test.folder / "bin"
     programs.mkdir()
-    ssh = programs / "ssh"
-    ssh.write_text(SSH.replace("FOLDER", str(test.folder)).replace("PROGRAM", str(test.program)))
-    ssh.chmod(0o755)
+    scripts = {
+        "ssh": SSH.replace("FOLDER", str(test.folder)),
+        "bare": SHELL.replace("PATH", str(test.program)),
+        "apart": SHELL.replace("PATH", str(test.folder / "hosts")),
+    }
+    for name, text in scripts.items():
+        (programs / name).write_text(text)
+        (programs / name).chmod(0o755)
     os.environ["PATH"] = f"{programs}:{path}"
     try:
         hosts(test)
