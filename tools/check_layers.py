@@ -111,7 +111,7 @@ HOME = {
     "CLI/": {"cli"},
     "pybind11/": {"python"},
     "lemon/": {"vision"},
-    "Eigen/": {"vision", "study", "field"},
+    "Eigen/": {"vision", "study", "field", "control"},
     "unsupported/Eigen/": {"study"},
     "nanoflann": {"field"},
     "nlopt": {"study"},

@@ -22,6 +22,7 @@ CHOSEN = {
     "src/app/scenario/scenario.h": {"box", "uniform", "none", "fuzzy", "horn_schunck"},
     "src/app/scenario/sections/field.cpp": {"uniform"},
     "src/app/scenario/sections/swarm.cpp": {"dipole", "uniform"},
+    "src/control/kalman.cpp": {"visible", "image"},  # the default of its source
     "src/rig/setup/rig_setup.cpp": {"simulated"},
     "src/study/data/flow_choice.h": {"horn_schunck"},
     "src/python/measures.cpp": {"horn_schunck"},  # the default of the program

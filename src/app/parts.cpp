@@ -38,12 +38,15 @@ namespace faba {
   X(estimator, estimator_none) \
   X(estimator, image)          \
   X(estimator, groups)         \
+  X(estimator, kalman)         \
   X(reference, none)           \
   X(reference, hold)           \
   X(reference, route)          \
   X(controller, manual)        \
   X(controller, fuzzy)         \
   X(controller, proportional)  \
+  X(controller, lqr)           \
+  X(controller, mpc)           \
   X(controller, gradient)      \
   X(controller, gradient_feedback)
 

@@ -4,6 +4,9 @@
 
 namespace faba {
 
+/// Covariance of the mean of a sample of `cells` cells with this covariance.
+inline Mat2 sample_cov(Mat2 cov, double cells) { return cells > 0 ? (1 / cells) * cov : Mat2{}; }
+
 /// Mean, covariance (n - 1) and velocity of detections. Summed in index order by one thread, so that the
 /// result is bit-identical in every run.
 class Centroid {

@@ -8,6 +8,7 @@
 #include "core/frame.h"
 #include "core/registry.h"
 #include "core/signals.h"
+#include "core/swarm_motion.h"
 #include "field/field.h"
 
 namespace faba {
@@ -53,6 +54,12 @@ class Controller {
   virtual std::vector<std::vector<double>> given_currents() const { return {}; }
 };
 
+/// World frame, m.
+struct Disc {
+  Vec2 centre;
+  double radius = 0;
+};
+
 /// Inputs available to the constructors of estimators, references and controllers.
 struct ControlContext {
   std::shared_ptr<const Field> field;
@@ -63,6 +70,9 @@ struct ControlContext {
   double delay_frames = 0;               ///< from mid-exposure of a frame to the command computed from it
   std::vector<double> max_current = {};  ///< largest current of each coil, A; one per coil
   std::shared_ptr<const FieldLibrary> library = {};  ///< of the field, when the scenario specifies one
+  SwarmMotion motion = {};                           ///< expected of the swarm that is steered
+  std::optional<double> max_slew = {};               ///< largest change of a current, A/s
+  std::optional<Disc> drop = {};                     ///< in which the cells are
 };
 using EstimatorRegistry = Registry<Estimator, ControlContext>;
 using ReferenceRegistry = Registry<Reference, ControlContext>;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <optional>
 
+#include "control/centroid.h"
 #include "control/controller.h"
 #include "control/foreground_params.h"
 #include "vision/foreground/fuzzy_groups.h"
@@ -75,6 +76,7 @@ class EstimatorGroups final : public Estimator {
     e.centroid = followed.centroid;
     e.cov = followed.cov;
     e.visible = cells * followed.share;
+    if (o.seen.empty()) e.centroid_cov = sample_cov(e.cov, e.visible);
     if (has_estimate_ && o.t > t_) e.velocity = (1 / (o.t - t_)) * (e.centroid - at_);
     at_ = e.centroid;
     t_ = o.t;

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "control/centroid.h"
 #include "control/controller.h"
 #include "control/foreground_params.h"
 #include "vision/image/image.h"
@@ -34,6 +35,7 @@ class EstimatorImage final : public Estimator {
       const double area = frame_.m_per_px * frame_.m_per_px;
       e.centroid = frame_.world_from_image(m.centroid_image);
       e.cov = {area * m.cov_px2.xx, -area * m.cov_px2.xy, area * m.cov_px2.yy};
+      e.centroid_cov = sample_cov(e.cov, m.cells);
       if (has_centroid_ && o.t > centroid_t_) e.velocity = (1 / (o.t - centroid_t_)) * (e.centroid - at_);
       at_ = e.centroid;
       centroid_t_ = o.t;

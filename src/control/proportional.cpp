@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "control/controller.h"
+#include "control/duty.h"
 #include "core/schema.h"
 
 namespace faba {
@@ -37,17 +38,17 @@ class Proportional final : public Controller {
   Proportional(const Params& p, const ControlContext& c);
   Command update(const Estimate& e, const Target& target, double dt) override;
   double max_field() const override { return p_.gain > 0 ? p_.max_output * c_.scale.field_unit : 0; }
-  void archive(Archive& a) override { a& integral_& duty_residual_& last_& has_last_; }
+  void archive(Archive& a) override { a& integral_& duty_& last_& has_last_; }
 
  private:
   Params p_;
   ControlContext c_;
-  double k_p_ = 0;            ///< drift per error, 1/frame
-  Vec2 integral_;             ///< px frames
-  double duty_residual_ = 0;  ///< sigma-delta residual of the duty, in frames at full speed
-  double horizon_ = 0;        ///< extrapolation time of the centroid, s
-  Vec2 last_;                 ///< centroid of the previous update, m
-  bool has_last_ = false;     ///< last_ is valid
+  double k_p_ = 0;  ///< drift per error, 1/frame
+  Vec2 integral_;   ///< px frames
+  Duty duty_;
+  double horizon_ = 0;     ///< extrapolation time of the centroid, s
+  Vec2 last_;              ///< centroid of the previous update, m
+  bool has_last_ = false;  ///< last_ is valid
 };
 
 Schema<Proportional::Params> Proportional::schema() {
@@ -126,11 +127,7 @@ Command Proportional::update(const Estimate& e, const Target& target, double dt)
   const double fraction = std::min(size / max_drift, 1.0);
   if (!duty) return field_command(c_, e.centroid, (fraction * p_.max_output) * along);
 
-  // Sigma-delta modulation: forwards while drift is owed, else backwards; the mean is the desired fraction.
-  duty_residual_ = std::clamp(duty_residual_ + fraction, -2.0, 2.0);
-  const double sign = duty_residual_ >= 0 ? 1 : -1;
-  duty_residual_ -= sign;
-  return field_command(c_, e.centroid, (sign * p_.max_output) * along);
+  return field_command(c_, e.centroid, (duty_.sign(fraction) * p_.max_output) * along);
 }
 
 }  // namespace

@@ -68,7 +68,10 @@ class Registry {
       settle(p, n);
       Json resolved = {{"type", s.name()}};
       resolved.update(s.to_json(p));
-      return PartType{s.name(), traits, std::move(resolved),
+      std::vector<Trait> its = traits;  // and those of the parts that it contains
+      if constexpr (requires { p.traits(); })
+        for (const Trait t : p.traits()) its.push_back(t);
+      return PartType{s.name(), std::move(its), std::move(resolved),
                       [p, make](const Context& c) { return make(p, c); }, s.notes(p)};
     };
     if (!entries_.emplace(s.name(), std::move(e)).second)

@@ -44,6 +44,13 @@ struct Estimate {
   Vec2 velocity;       ///< m/s
   double visible = 0;  ///< number of cells used; 0: none, `centroid` is the last known one
   std::vector<Group> groups;
+  /// Whether `t`, `centroid` and `velocity` are those of the time at which the command of this cycle acts;
+  /// otherwise those of the picture, which is older.
+  bool predicted = false;
+  /// Of the errors of both, m^2 and m^2/s^2; zero: not known. That of the position of a picture is the error
+  /// of a sample: which cells are seen changes slowly, so that it is not smaller in the mean of several
+  /// frames.
+  Mat2 centroid_cov, velocity_cov;
 };
 
 /// Setpoint for the swarm. World frame, m.

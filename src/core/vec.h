@@ -32,6 +32,8 @@ inline Vec3 cross(Vec3 a, Vec3 b) {
 /// Symmetric 2x2 matrix, here always a covariance.
 struct Mat2 {
   double xx = 0, xy = 0, yy = 0;
+  friend Mat2 operator+(Mat2 a, Mat2 b) { return {a.xx + b.xx, a.xy + b.xy, a.yy + b.yy}; }
+  friend Mat2 operator*(double s, Mat2 a) { return {s * a.xx, s * a.xy, s * a.yy}; }
 };
 /// Row-major 3x3 matrix; as a gradient, element [i][j] is d B_i / d x_j.
 using Mat3 = std::array<std::array<double, 3>, 3>;

@@ -97,6 +97,14 @@ void bind_estimate(py::module_& m) {
           "float array (2, 2): covariance of the positions of the cells, m^2")
       .def_property_readonly(
           "velocity", [](const Estimate& e) { return array_of(e.velocity); }, "float array (2,): m/s")
+      .def_readonly("predicted", &Estimate::predicted,
+                    "bool: t, centroid and velocity are those of the time at which the command acts")
+      .def_property_readonly(
+          "centroid_cov", [](const Estimate& e) { return matrix_of(e.centroid_cov); },
+          "float array (2, 2): of the error of the centroid, m^2; zeros: not known")
+      .def_property_readonly(
+          "velocity_cov", [](const Estimate& e) { return matrix_of(e.velocity_cov); },
+          "float array (2, 2): of the error of the velocity, m^2/s^2; zeros: not known")
       .def_readonly("visible", &Estimate::visible,
                     "float: number of cells that the estimate is based on; 0: none")
       .def_readonly("groups", &Estimate::groups, "list of Group: the swarms, if there are several")

@@ -272,7 +272,8 @@ void bind_worlds(py::module_& m) {
       .def("reset", &PyWorlds::reset, py::arg("which"), py::arg("seeds"), py::arg("sets"),
            "Starts worlds again, each with a seed and a dict of changes of the scenario.")
       .def("step", &PyWorlds::step, py::arg("actions"),
-           "One control cycle of each world; `actions`: array (worlds, size of an action), limited to -1 to 1.")
+           "One control cycle of each world; `actions`: array (worlds, size of an action), limited to -1 to "
+           "1.")
       .def_property_readonly("number", &PyWorlds::number, "int: number of worlds")
       .def_property_readonly(
           "inputs", [](const PyWorlds& w) { return w.worlds().inputs(); }, "int: size of an observation")

@@ -1,13 +1,13 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/frame.h"
 #include "core/registry.h"
+#include "core/swarm_motion.h"
 #include "sim/state.h"
 
 namespace faba {
@@ -34,13 +34,6 @@ struct WeakestField {
   std::string reason = {};  ///< why a weaker field does not move them; ends a sentence
 };
 
-/// How a typical cell of a model turns and swims in a uniform field.
-struct FieldResponse {
-  double turning = 0;    ///< rate of turning per tesla, m / f_r, rad/(s T)
-  double diffusion = 0;  ///< rotational diffusion coefficient, 1/s
-  double speed = 0;      ///< m/s
-};
-
 /// A law of motion. Stateless: all state is in columns. One virtual call per block of agents.
 class AgentModel {
  public:
@@ -54,8 +47,8 @@ class AgentModel {
   virtual double longest_step(double b_max) const = 0;
   /// The field below which cells move as without a field during `time` s, for notes on weak fields.
   virtual WeakestField weakest_field(double /*time*/) const { return {}; }
-  /// Empty for models whose cells have no heading that the field turns.
-  virtual std::optional<FieldResponse> field_response() const { return std::nullopt; }
+  /// How a swarm of typical cells moves in a uniform field.
+  virtual SwarmMotion motion() const = 0;
 };
 
 /// Context for the construction of a model.

@@ -49,6 +49,7 @@ Json beside(const std::string& table) {
       {"field map", {{"expansion", {{"coefficients", {0, 0, 0}}}}}},
       {"field map expansion", {{"coefficients", {0, 0, 0}}}},
       {"reference route", {{"setpoints_px", {{100, 120}}}}},
+      {"controller mpc obstacle", {{"corners_px", {{0, 0}, {9, 0}, {0, 9}}}}},
       {"controller fuzzy set", {{"trapezoid_px", {0, 0, 1, 1}}}},
       {"camera playback", {{"file", "a video"}}},
   };
@@ -60,6 +61,7 @@ Json beside(const std::string& table) {
 std::size_t count_of(const std::string& key, const Json& schema) {
   if (key.ends_with(".coefficients")) return 3;
   if (key.ends_with(".trapezoid_px")) return 4;
+  if (key.ends_with(".corners_px") && schema["items"].contains("items")) return 3;
   return schema.value("minItems", std::size_t{1});
 }
 

@@ -22,11 +22,13 @@ BenchControls::BenchControls(const Scenario& s) : limits(s.limits) {
   frame = s.arena.make({s.si_scale()})->frame();
   ControlContext control = control_context(s, field, frame, nullptr);
   control.delay_frames = s.rig->params.delay.value_or(0) / s.frame_period();
+  Limits::Params p = s.limits;
+  if (const auto slew = s.rig->guard.max_slew) p.max_slew = std::min(*slew, p.max_slew.value_or(*slew));
+  control.max_slew = p.max_slew;
+  control.max_current = max_currents;
   estimator = s.estimator.make(control);
   reference = s.reference.make(control);
   controller = s.controller.make(control);
-  Limits::Params p = s.limits;
-  if (const auto slew = s.rig->guard.max_slew) p.max_slew = std::min(*slew, p.max_slew.value_or(*slew));
   const CoilWiring wiring(s.rig->coils);
   std::function<void(std::vector<double>&)> shared_outputs;
   if (wiring.channels().size() < wiring.coils().size())

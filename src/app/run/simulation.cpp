@@ -115,14 +115,21 @@ void add_populations(WorldParts& w, const Scenario& s) {
 
 ControlContext control_context(const Scenario& s, const std::shared_ptr<const Field>& field,
                                const Frame& frame, const std::shared_ptr<const FieldLibrary>& library) {
-  return {field,
-          s.si_scale(),
-          frame,
-          s.polarity(),
-          s.frame_period(),
-          double(s.camera.delay_frames),
-          field->max_currents(s.limits.max_current),
-          library};
+  ControlContext c{field,
+                   s.si_scale(),
+                   frame,
+                   s.polarity(),
+                   s.frame_period(),
+                   double(s.camera.delay_frames),
+                   field->max_currents(s.limits.max_current),
+                   library};
+  const Scale scale = s.si_scale();
+  if (!s.swarms.empty()) c.motion = s.swarms.front().model.make({scale, scale.iteration})->motion();
+  c.max_slew = s.limits.max_slew;
+  const Outline edge = s.arena.make({scale})->outline();
+  if (edge.radius_px > 0)
+    c.drop = Disc{frame.world_from_image(edge.centre_image), edge.radius_px * scale.m_per_px};
+  return c;
 }
 
 struct Simulation::Exchanged {

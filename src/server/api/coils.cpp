@@ -81,7 +81,7 @@ CoilDesignOptions options_of(const Json& asked, const Parts& parts) {
   o.sample = number_of(asked, "sample_m", kLeastSample, kMostSample);
   Document d;
   d.root = {{"model", asked.value("model", Json("dipole"))}};
-  o.cell = field_response(parts.model.resolve(Node(d).child("model")));
+  o.cell = turning_motion(parts.model.resolve(Node(d).child("model")));
   return o;
 }
 

@@ -36,6 +36,7 @@ class Adapted final : public AgentModel {
   void step(State& s, const StepContext& c) const override;
   double longest_step(double) const override { return scale_.iteration; }
   WeakestField weakest_field(double time) const override;
+  SwarmMotion motion() const override;
 
  private:
   Params p_;
@@ -127,6 +128,15 @@ WeakestField Adapted::weakest_field(double) const {
   constexpr double kDirection = 0.01;  // rad
   return {kDirection * std::fabs(p_.earth) * scale_.field_unit,
           "a weaker field changes the direction of the Earth's field by less than 0.01 rad"};
+}
+
+// The mean innate speed is half the largest one.
+SwarmMotion Adapted::motion() const {
+  const double pixels = scale_.m_per_px / scale_.iteration;
+  const double n = double(std::lround(p_.noise_amplitude.value_or(p_.max_speed)));
+  return {.response = SwarmMotion::Response::constant,
+          .speed = pixels * p_.max_speed / 2,
+          .spread = pixels * scale_.m_per_px * p_.hold * n * (n + 1) / 6};
 }
 
 void Adapted::step(State& s, const StepContext& c) const {

@@ -30,6 +30,7 @@ class Basic final : public AgentModel {
   void step(State& s, const StepContext& c) const override;
   double longest_step(double) const override { return scale_.iteration; }
   WeakestField weakest_field(double time) const override;
+  SwarmMotion motion() const override;
 
  private:
   Params p_;
@@ -83,6 +84,13 @@ Basic::Basic(const Params& p, const ModelContext& c) : p_(p), scale_(c.scale), c
 WeakestField Basic::weakest_field(double time) const {
   return {scale_.field_unit * scale_.iteration / time,
           "a weaker field moves the cells by less than one pixel during the run"};
+}
+
+SwarmMotion Basic::motion() const {
+  const double pixels = scale_.m_per_px / scale_.iteration, n = double(std::lround(p_.max_speed));
+  return {.response = SwarmMotion::Response::proportional,
+          .mobility = pixels / scale_.field_unit,
+          .spread = pixels * scale_.m_per_px * p_.hold * n * (n + 1) / 6};
 }
 
 void Basic::step(State& s, const StepContext& c) const {

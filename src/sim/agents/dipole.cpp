@@ -51,8 +51,8 @@ class Dipole final : public AgentModel {
   void step(State& s, const StepContext& c) const override;
   double longest_step(double b_max) const override;
   WeakestField weakest_field(double time) const override;
-  std::optional<FieldResponse> field_response() const override {
-    return FieldResponse{turning_, d_r_, p_.speed};
+  SwarmMotion motion() const override {
+    return {.speed = p_.speed, .turning = turning_, .diffusion = d_r_, .spread = d_t_};
   }
 
  private:

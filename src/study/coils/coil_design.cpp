@@ -65,7 +65,7 @@ bool has_other_zero(const Field& field, const FieldNull& trap, const CoilDesignO
 }
 
 void add_steering(HoldStrength& h, const FieldRange& range, const CoilDesignOptions& o) {
-  const FieldResponse& cell = o.cell;
+  const SwarmMotion& cell = o.cell;
   h.weakest = range.weakest();
   for (int i = 0; i < kDirections; ++i) h.around.push_back(range.along(2 * kPi * i / kDirections));
   h.for_alignment = cell.turning > 0 ? kAligned * cell.diffusion / cell.turning : kInfinity;
@@ -77,7 +77,7 @@ void add_steering(HoldStrength& h, const FieldRange& range, const CoilDesignOpti
 }
 
 void add_trap(HoldStrength& h, const Field& field, const FieldNull& trap, const CoilDesignOptions& o) {
-  const FieldResponse& cell = o.cell;
+  const SwarmMotion& cell = o.cell;
   const double half = o.sample / 2;
   h.trap.required = cell.turning > 0 ? cell.speed / (cell.turning * half * half) : kInfinity;
   if (!trap.reachable) return;
@@ -121,14 +121,14 @@ CoilDesign coil_design(const Field& field, const CoilDesignOptions& o) {
   return d;
 }
 
-FieldResponse field_response(const ModelRegistry::PartType& model) {
-  const auto response = model.make({Scale{}, Scale{}.iteration})->field_response();
-  if (!response)
+SwarmMotion turning_motion(const ModelRegistry::PartType& model) {
+  const SwarmMotion motion = model.make({Scale{}, Scale{}.iteration})->motion();
+  if (motion.response != SwarmMotion::Response::turning)
     throw Error(Errc::usage, "model",
                 fmt::format("\"{}\" has no cells that the field turns; it must be a model with a magnetic "
                             "moment, such as \"dipole\"",
                             model.type));
-  return *response;
+  return motion;
 }
 
 }  // namespace faba

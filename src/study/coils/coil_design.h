@@ -21,7 +21,7 @@ struct CoilDesignOptions {
   Vec2 target = {};         ///< where the swarm is held, m
   int polarity = 1;         ///< of the cells: +1 north-seeking, -1 south-seeking
   double sample = 1e-3;     ///< radius of the sample, m
-  FieldResponse cell = {};  ///< of a typical cell
+  SwarmMotion cell = {};    ///< of a typical cell
 };
 
 /// Whether a coil system can hold a swarm at a position, by a controller or by a zero of the field (theory
@@ -67,6 +67,6 @@ struct CoilDesign {
 CoilDesign coil_design(const Field& field, const CoilDesignOptions& options);
 
 /// How a typical cell of a model turns and swims. Throws Error(usage) if the model has no such cell.
-FieldResponse field_response(const ModelRegistry::PartType& model);
+SwarmMotion turning_motion(const ModelRegistry::PartType& model);
 
 }  // namespace faba

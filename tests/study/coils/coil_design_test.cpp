@@ -18,11 +18,11 @@ const std::filesystem::path kRigs = FABA_SCENES "/../rigs";
 constexpr double kPi = 3.14159265358979323846;
 
 std::unique_ptr<Field> rig(const char* file) { return read_rig(kRigs / file, builtin_parts()).make({}); }
-FieldResponse response_of(const std::string& model) {
+SwarmMotion response_of(const std::string& model) {
   const Document d = parse_toml("model = " + model, "test");
-  return field_response(builtin_parts().model.resolve(Node(d).child("model")));
+  return turning_motion(builtin_parts().model.resolve(Node(d).child("model")));
 }
-FieldResponse preset(const std::string& name) {
+SwarmMotion preset(const std::string& name) {
   return response_of("{ type = 'dipole', preset = '" + name + "' }");
 }
 CoilDesignOptions options(const char* cells = "IT-1") {
@@ -34,7 +34,7 @@ CoilDesignOptions options(const char* cells = "IT-1") {
 }  // namespace
 
 TEST_CASE("the response of the presets is that of theory B2") {
-  const FieldResponse it1 = preset("IT-1"), msr1 = preset("MSR-1");
+  const SwarmMotion it1 = preset("IT-1"), msr1 = preset("MSR-1");
   CHECK(it1.turning == doctest::Approx(1.30e5).epsilon(0.005));
   CHECK(it1.diffusion == doctest::Approx(0.54).epsilon(0.01));
   CHECK(it1.speed == 186e-6);

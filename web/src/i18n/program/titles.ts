@@ -16,6 +16,9 @@ export const titles: Record<string, string> = {
   Tolerance: 'Tolerância', 'Hold frames': 'Quadros de permanência', Timeout: 'Tempo limite', 'Wall alignment': 'Alinhamento à parede',
   // Controllers and estimators
   Gain: 'Ganho', 'Integral gain': 'Ganho integral', 'Integral time': 'Tempo integral', 'Max output': 'Comando máximo', 'Dead zone': 'Zona morta', 'Delay frames': 'Atraso em quadros', 'Frames per cell velocity': 'Quadros por velocidade de célula',
+  'Swimming speed of the plant': 'Velocidade de nado da planta', 'Turning rate of the plant': 'Taxa de giro da planta', 'Rotational diffusion of the plant': 'Difusão rotacional da planta', 'Drift per tesla of the plant': 'Deriva por tesla da planta',
+  'Time without cells': 'Tempo sem células', 'Error of a position': 'Erro de uma posição', 'Distance worth the full command': 'Distância que vale o comando total', 'Velocity weight': 'Peso da velocidade', 'Frames per move': 'Quadros por movimento', Moves: 'Movimentos', Change: 'Mudança',
+  'Distance from edges': 'Distância das bordas', 'Distance from obstacles': 'Distância dos obstáculos', Obstacles: 'Obstáculos', 'Heat of the coils': 'Calor das bobinas', Corners: 'Vértices',
   Actuation: 'Atuação', 'Prediction time': 'Tempo de predição', 'Near distance': 'Distância próxima', 'Far distance': 'Distância distante', 'Fuzzy states': 'Estados fuzzy', 'Direction of the command': 'Direção do comando', Current: 'Corrente',
   'Maximum displacement of the zero': 'Deslocamento máximo do zero', 'Maximum number of groups': 'Número máximo de grupos', Count: 'Número', Separation: 'Separação', At: 'Instante',
   // Scale, camera, limits

@@ -101,7 +101,10 @@ export const scenario: Record<string, string> = {
   // control
   'needs camera frames, but the camera provides none; set camera.sensor = "frames"': 'precisa de quadros da câmera, mas a câmera não fornece nenhum; defina camera.sensor = "frames"',
   'the camera frame is {} x {} px; it must be {} x {} px, the size of the view': 'o quadro da câmera tem {} x {} px; deve ter {} x {} px, o tamanho da vista',
+  'corners_px has {}; a polygon has at least 3 corners': 'corners_px tem {}; um polígono tem pelo menos 3 vértices',
   'trapezoid_px has {}; it must have 4': 'trapezoid_px tem {}; deve ter 4',
+  '{} corner': '{} vértice',
+  '{} corners': '{} vértices',
   '{} value': '{} valor',
   '{} values': '{} valores',
   'trapezoid_px = [{}]; the corners must be in ascending order': 'trapezoid_px = [{}]; os cantos devem estar em ordem crescente',
