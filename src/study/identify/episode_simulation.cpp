@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 #include "app/run/simulation.h"
@@ -40,6 +41,29 @@ Json field_along(double direction_deg, double strength_t, bool north) {
   return {quantity(b * direction.x, "T"), quantity(-b * direction.y, "T")};
 }
 
+// The field in the segments, and `before` them. The controller sets it at the first frame that is not earlier
+// than a segment. Times between frames are rounded to the nearest frame; otherwise all reversals would be
+// half a frame late on average. Of segments that start at the same frame the last one counts.
+Json controller_of(const Episode& e, const SegmentTiming& timing, double fps,
+                   const std::function<Json(double)>& along, Json before) {
+  Json first = std::move(before), segments = Json::array();
+  double last_s = 0;
+  for (std::size_t i = 0; i < e.segments.size(); ++i) {
+    const double at_s = std::round(timing.starts_s[i] * fps) / fps;
+    const Json field = along(e.segments[i].direction_deg);
+    if (at_s <= 0)
+      first = field;
+    else if (at_s == last_s)
+      segments.back()["field"] = field;
+    else
+      segments.push_back({{"at", quantity(at_s, "s")}, {"field", field}});
+    last_s = at_s;
+  }
+  Json controller{{"type", "manual"}, {"field", first}};
+  if (!segments.empty()) controller["segment"] = segments;
+  return controller;
+}
+
 // Divides the swarm into equal populations.
 void add_populations(Json& swarms, const Variant& model) {
   const auto populations = model.extra.value(kPopulations, std::size_t(1));
@@ -53,7 +77,10 @@ class EpisodeSink final : public Sink {
  public:
   EpisodeSink(const std::vector<double>& times, double lead_s, Simulation& simulation, const Scenario& s,
               Look look)
-      : simulation_(simulation), look_(look) {
+      : simulation_(simulation),
+        look_(look),
+        start_(std::uint64_t(std::lround(lead_s * s.camera.rate))),
+        initial_(simulation.world().state()) {
     for (std::size_t i = 0; i < times.size(); ++i) {
       const double frame = std::round((times[i] + lead_s) * s.camera.rate);
       wanted_[std::uint64_t(std::clamp(frame, 0.0, double(s.frames() - 1)))].push_back(i);
@@ -61,6 +88,7 @@ class EpisodeSink final : public Sink {
     look == Look::video ? seen.frames.resize(times.size()) : seen.positions.resize(times.size());
   }
   void take(const Tick& t) override {
+    if (t.index == start_ && start_ > 0) restore_positions();
     const auto it = wanted_.find(t.index);
     if (it == wanted_.end()) return;
     for (const std::size_t i : it->second)
@@ -69,6 +97,12 @@ class EpisodeSink final : public Sink {
   EpisodeObservation seen;
 
  private:
+  // The initial positions were measured at the start of the episode.
+  void restore_positions() {
+    State now = simulation_.world().state();
+    for (const char* axis : {"x", "y"}) std::ranges::copy(initial_.agents[axis], now.agents[axis].begin());
+    simulation_.world().restore(now);
+  }
   void take_picture(GrayF& out) {
     const ImageRef picture = simulation_.rig().picture();
     out = GrayF(picture->width, picture->height);
@@ -83,6 +117,8 @@ class EpisodeSink final : public Sink {
   }
   Simulation& simulation_;
   Look look_;
+  std::uint64_t start_;  ///< first frame of the episode
+  const State initial_;
   std::map<std::uint64_t, std::vector<std::size_t>> wanted_;
 };
 
@@ -94,12 +130,13 @@ SegmentTiming exact_timing(const Episode& e) {
   return t;
 }
 
-SegmentTiming random_timing(const Episode& e, double sd_s, std::uint64_t seed) {
+SegmentTiming random_timing(const Episode& e, const TimingErrors& errors, std::uint64_t seed) {
   StudyRandom random(seed, StudyDraws::timing);
   SegmentTiming t;
   for (const FieldSegment& d : e.segments)
-    t.starts_s.push_back(d.t0_s + sd_s * std::clamp(random.normal(), -2.5, 2.5));
-  t.lead_s = std::max(0.0, -t.starts_s.front());
+    t.starts_s.push_back(d.t0_s + errors.sd_s * std::clamp(random.normal(), -2.5, 2.5));
+  const double early = std::ceil(std::max(0.0, -t.starts_s.front()) / errors.frame_s);
+  t.lead_s = errors.frame_s * (early + double(random.below(std::size_t(errors.clock_frames))));
   for (double& start : t.starts_s) start += t.lead_s;
   std::sort(t.starts_s.begin(), t.starts_s.end());
   return t;
@@ -137,16 +174,9 @@ Document episode_scenario(const ResponseVideo& v, const Episode& e, const Episod
     swarm["heading"] = quantity(-(e.segments[0].direction_deg + 180), "deg");
   const bool north = swarm.contains("polarity") && swarm["polarity"] == "north";
   const auto along = [&](double deg) { return field_along(deg, settings.field_strength_t, north); };
-  Json first = along(e.segments[0].direction_deg), segments = Json::array();
-  if (timing.starts_s[0] > 0)
-    first =
-        settings.boundary == Boundary::none ? Json{"0 T", "0 T"} : along(e.segments[0].direction_deg + 180);
-  for (std::size_t i = 0; i < e.segments.size(); ++i)
-    if (timing.starts_s[i] > 0)
-      segments.push_back(
-          {{"at", quantity(timing.starts_s[i], "s")}, {"field", along(e.segments[i].direction_deg)}});
-  d.root["controller"] = {{"type", "manual"}, {"field", first}};
-  if (!segments.empty()) d.root["controller"]["segment"] = segments;
+  d.root["controller"] = controller_of(
+      e, timing, v.fps, along,
+      settings.boundary == Boundary::none ? Json{"0 T", "0 T"} : along(e.segments[0].direction_deg + 180));
   add_populations(d.root["swarm"], settings.model);
   apply(settings.model, "model", d);
   return d;

@@ -27,9 +27,16 @@ struct SegmentTiming {
 };
 /// The times of the episode.
 SegmentTiming exact_timing(const Episode& episode);
-/// The times of the episode with normally distributed errors of `sd_s`, truncated at 2.5 sd, and sorted. The
-/// times are known to about one frame only, in which a cell can swim tens of pixels.
-SegmentTiming random_timing(const Episode& episode, double sd_s, std::uint64_t seed);
+/// What is not known about the times of an episode.
+struct TimingErrors {
+  double sd_s = 0;       ///< standard deviation of the times of the segments
+  double frame_s = 1;    ///< duration of a frame
+  int clock_frames = 1;  ///< frames after which the clock of the model repeats
+};
+/// The times of the episode with normally distributed errors, truncated at 2.5 sd, and sorted. The times are
+/// known to about one frame only, in which a cell can swim tens of pixels. A video does not show at which of
+/// its frames a model with a clock draws new velocities: the lead is uniform over the period of the clock.
+SegmentTiming random_timing(const Episode& episode, const TimingErrors& errors, std::uint64_t seed);
 
 /// Scenario of an episode: arena, illumination, noise, field of view, initial cell positions, and the field
 /// of its segments. Before the first segment the field is opposite to it and the cells are aligned; without a
@@ -48,7 +55,8 @@ struct EpisodeObservation {
   std::vector<GrayF> frames;
   std::vector<std::vector<Vec2>> positions;
 };
-/// Simulates an episode on the calling thread. `lead_s` as in SegmentTiming.
+/// Simulates an episode on the calling thread. `lead_s` as in SegmentTiming. The cells have their initial
+/// positions at the start of the episode: the lead determines only their headings and velocities.
 EpisodeObservation simulate_episode(const Scenario& s, std::uint64_t seed, double lead_s,
                                     const std::vector<double>& times_s, Look look,
                                     const std::shared_ptr<const VideoBackground>& ground);

@@ -37,6 +37,17 @@ void scale_counts(Document& d, const Candidate& c, double times) {
       swarms[i]["count"] = std::max<std::int64_t>(1, std::llround(times * swarms[i]["count"].get<double>()));
 }
 
+// Frames after which the clock of the models repeats: those of the thesis draw velocities every `hold`
+// iterations.
+int clock_frames(const Json& scenario, double fps) {
+  double iterations = 1;
+  for (std::size_t i = 0; i < scenario["swarm"].size(); ++i)
+    iterations =
+        std::max(iterations, scenario_number(fmt::format("swarm[{}].model.hold", i), scenario).value_or(1));
+  const double frames = scenario_number("scale.iteration", scenario).value_or(1 / fps) * fps;
+  return std::max(1, int(std::lround(iterations * std::max(1.0, frames))));
+}
+
 EpisodeSettings settings_of(const IdentifyStudy& study, const Candidate& c, const ResponseVideo& v) {
   return {study.boundary, study.scene, c.model, c.field_strength_in(v)};
 }
@@ -62,7 +73,13 @@ SampledEpisode sampled_episode(const IdentifyStudy& study, const Candidate& c, c
   settings.scale_factor = factor(common, study.scale_sd);
   settings.field_strength_t *= factor(common, study.field_sd);
   const double timing_sd = (v.segments_detected ? kTimingDetected : kTimingGiven) / v.fps;
-  SampledEpisode sampled{{}, random_timing(e, study.timing_s.value_or(timing_sd), seeds.episode)};
+  const Document exact = candidate_scenario(study, c, v, e, u, exact_timing(e));
+  SampledEpisode sampled{{},
+                         random_timing(e,
+                                       {.sd_s = study.timing_s.value_or(timing_sd),
+                                        .frame_s = 1 / v.fps,
+                                        .clock_frames = clock_frames(exact.root, v.fps)},
+                                       seeds.episode)};
   if (change) {
     settings.field_strength_t *= change->field_factor;
     for (double& start : sampled.timing.starts_s) start += change->delay_frames / v.fps;
