@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numeric>
 
 #include "app/run/simulation.h"
 #include "study/stats/study_random.h"
@@ -72,17 +73,44 @@ void add_populations(Json& swarms, const Variant& model) {
   while (swarms.size() < populations) swarms.push_back(swarms[0]);
 }
 
+std::vector<Vec2> positions_of(const State& state) {
+  const auto x = state.agents["x"], y = state.agents["y"];
+  std::vector<Vec2> positions;
+  for (std::size_t i = 0; i < x.size(); ++i) positions.push_back({double(x[i]), double(y[i])});
+  return positions;
+}
+
+// Order of positions in m: by strips along the direction, with equal numbers of cells, and along it within a
+// strip. y points up.
+std::vector<std::size_t> strip_order(const std::vector<Vec2>& positions, double direction_deg) {
+  const Vec2 image = unit_vector(direction_deg), along{image.x, -image.y}, across{-along.y, along.x};
+  std::vector<std::size_t> order(positions.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  const auto by = [&](Vec2 axis) {
+    return [&positions, axis](std::size_t a, std::size_t b) {
+      return dot(positions[a], axis) < dot(positions[b], axis);
+    };
+  };
+  std::stable_sort(order.begin(), order.end(), by(across));
+  const std::size_t strip = std::size_t(std::ceil(std::sqrt(double(order.size()))));
+  for (std::size_t i = 0; i < order.size(); i += strip)
+    std::stable_sort(order.begin() + std::ptrdiff_t(i),
+                     order.begin() + std::ptrdiff_t(std::min(i + strip, order.size())), by(along));
+  return order;
+}
+
 /// Records the frames or cell positions at the times of the statistics.
 class EpisodeSink final : public Sink {
  public:
-  EpisodeSink(const std::vector<double>& times, double lead_s, Simulation& simulation, const Scenario& s,
-              Look look)
+  EpisodeSink(const std::vector<double>& times, const EpisodeLead& lead, Simulation& simulation,
+              const Scenario& s, Look look)
       : simulation_(simulation),
         look_(look),
-        start_(std::uint64_t(std::lround(lead_s * s.camera.rate))),
-        initial_(simulation.world().state()) {
+        lead_(lead),
+        start_(std::uint64_t(std::lround(lead.duration_s * s.camera.rate))),
+        initial_(positions_of(simulation.world().state())) {
     for (std::size_t i = 0; i < times.size(); ++i) {
-      const double frame = std::round((times[i] + lead_s) * s.camera.rate);
+      const double frame = std::round((times[i] + lead.duration_s) * s.camera.rate);
       wanted_[std::uint64_t(std::clamp(frame, 0.0, double(s.frames() - 1)))].push_back(i);
     }
     look == Look::video ? seen.frames.resize(times.size()) : seen.positions.resize(times.size());
@@ -100,7 +128,12 @@ class EpisodeSink final : public Sink {
   // The initial positions were measured at the start of the episode.
   void restore_positions() {
     State now = simulation_.world().state();
-    for (const char* axis : {"x", "y"}) std::ranges::copy(initial_.agents[axis], now.agents[axis].begin());
+    const std::vector<Vec2> places = rearranged(initial_, positions_of(now), lead_.direction_deg);
+    const auto x = now.agents["x"], y = now.agents["y"];
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      x[i] = float(places[i].x);
+      y[i] = float(places[i].y);
+    }
     simulation_.world().restore(now);
   }
   void take_picture(GrayF& out) {
@@ -117,8 +150,9 @@ class EpisodeSink final : public Sink {
   }
   Simulation& simulation_;
   Look look_;
-  std::uint64_t start_;  ///< first frame of the episode
-  const State initial_;
+  EpisodeLead lead_;
+  std::uint64_t start_;              ///< first frame of the episode
+  const std::vector<Vec2> initial_;  ///< measured positions, m
   std::map<std::uint64_t, std::vector<std::size_t>> wanted_;
 };
 
@@ -136,7 +170,8 @@ SegmentTiming random_timing(const Episode& e, const TimingErrors& errors, std::u
   for (const FieldSegment& d : e.segments)
     t.starts_s.push_back(d.t0_s + errors.sd_s * std::clamp(random.normal(), -2.5, 2.5));
   const double early = std::ceil(std::max(0.0, -t.starts_s.front()) / errors.frame_s);
-  t.lead_s = errors.frame_s * (early + double(random.below(std::size_t(errors.clock_frames))));
+  t.lead_s = errors.frame_s *
+             (early + errors.history_frames + double(random.below(std::size_t(errors.clock_frames))));
   for (double& start : t.starts_s) start += t.lead_s;
   std::sort(t.starts_s.begin(), t.starts_s.end());
   return t;
@@ -151,7 +186,7 @@ Document episode_scenario(const ResponseVideo& v, const Episode& e, const Episod
   const double px = v.um_per_px * settings.scale_factor;
   d.root = {{"title", e.name},
             {"duration", quantity(timing.lead_s + e.length_s() + 1 / v.fps, "s")},
-            {"exposure", quantity(v.input.exposure_s, "s")},
+            {"exposure", quantity(std::max(0.0, v.input.exposure_s + e.start_s - timing.lead_s), "s")},
             {"scale", {{"um_per_px", px}}},
             {"camera", {{"rate", quantity(v.fps, "Hz")}}},
             {"microscope",
@@ -182,7 +217,15 @@ Document episode_scenario(const ResponseVideo& v, const Episode& e, const Episod
   return d;
 }
 
-EpisodeObservation simulate_episode(const Scenario& s, std::uint64_t seed, double lead_s,
+std::vector<Vec2> rearranged(const std::vector<Vec2>& places, const std::vector<Vec2>& like,
+                             double direction_deg) {
+  const std::vector<std::size_t> from = strip_order(places, direction_deg), to = strip_order(like, direction_deg);
+  std::vector<Vec2> out(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) out[to[i]] = places[from[i]];
+  return out;
+}
+
+EpisodeObservation simulate_episode(const Scenario& s, std::uint64_t seed, const EpisodeLead& lead,
                                     const std::vector<double>& times_s, Look look,
                                     const std::shared_ptr<const VideoBackground>& ground) {
   Pool pool(1);
@@ -190,7 +233,7 @@ EpisodeObservation simulate_episode(const Scenario& s, std::uint64_t seed, doubl
   scenario.record = {};
   scenario.record.as_seen = look == Look::video;
   Simulation simulation(scenario, seed, pool, ground);
-  EpisodeSink sink(times_s, lead_s, simulation, scenario, look);
+  EpisodeSink sink(times_s, lead, simulation, scenario, look);
   simulation.loop().sinks.push_back(&sink);
   run(simulation.loop(), s.frames(), [] { return true; });
   return std::move(sink.seen);

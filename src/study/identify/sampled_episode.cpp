@@ -18,6 +18,9 @@ using Eigen::VectorXd;
 // detected from the path of the swarm.
 constexpr double kTimingGiven = 0.58, kTimingDetected = 1.5;
 constexpr double kLargestError = 2.5;  // sd
+// Time before an episode in which cells gather at a boundary (assumed): in it slow cells fall behind fast
+// ones, and headings get their thermal spread.
+constexpr double kHistory_s = 2;
 
 // Factor of a quantity with a relative uncertainty.
 double factor(StudyRandom& random, double relative_sd) {
@@ -46,6 +49,10 @@ int clock_frames(const Json& scenario, double fps) {
         std::max(iterations, scenario_number(fmt::format("swarm[{}].model.hold", i), scenario).value_or(1));
   const double frames = scenario_number("scale.iteration", scenario).value_or(1 / fps) * fps;
   return std::max(1, int(std::lround(iterations * std::max(1.0, frames))));
+}
+
+int history_frames(Boundary boundary, double fps) {
+  return boundary == Boundary::none ? 0 : int(std::lround(kHistory_s * fps));
 }
 
 EpisodeSettings settings_of(const IdentifyStudy& study, const Candidate& c, const ResponseVideo& v) {
@@ -78,8 +85,10 @@ SampledEpisode sampled_episode(const IdentifyStudy& study, const Candidate& c, c
                          random_timing(e,
                                        {.sd_s = study.timing_s.value_or(timing_sd),
                                         .frame_s = 1 / v.fps,
-                                        .clock_frames = clock_frames(exact.root, v.fps)},
-                                       seeds.episode)};
+                                        .clock_frames = clock_frames(exact.root, v.fps),
+                                        .history_frames = history_frames(study.boundary, v.fps)},
+                                       seeds.episode),
+                         e.segments.front().direction_deg};
   if (change) {
     settings.field_strength_t *= change->field_factor;
     for (double& start : sampled.timing.starts_s) start += change->delay_frames / v.fps;
@@ -94,7 +103,7 @@ std::vector<double> sampled_statistics(const IdentifyStudy& study, const Respons
                                        const EpisodeStatistics& statistics, const SampledEpisode& sampled,
                                        const EpisodeSeeds& seeds) {
   const EpisodeObservation seen =
-      simulate_episode(read_scenario(sampled.scenario, builtin_parts()), seeds.episode, sampled.timing.lead_s,
+      simulate_episode(read_scenario(sampled.scenario, builtin_parts()), seeds.episode, {sampled.timing.lead_s, sampled.direction_deg},
                        statistics.times_s(), study.look, v.ground);
   std::vector<double> numbers =
       study.look == Look::video ? statistics.of_frames(seen.frames) : statistics.of_positions(seen.positions);
