@@ -219,7 +219,8 @@ Document episode_scenario(const ResponseVideo& v, const Episode& e, const Episod
 
 std::vector<Vec2> rearranged(const std::vector<Vec2>& places, const std::vector<Vec2>& like,
                              double direction_deg) {
-  const std::vector<std::size_t> from = strip_order(places, direction_deg), to = strip_order(like, direction_deg);
+  const std::vector<std::size_t> from = strip_order(places, direction_deg),
+                                 to = strip_order(like, direction_deg);
   std::vector<Vec2> out(places.size());
   for (std::size_t i = 0; i < places.size(); ++i) out[to[i]] = places[from[i]];
   return out;

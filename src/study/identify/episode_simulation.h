@@ -29,9 +29,9 @@ struct SegmentTiming {
 SegmentTiming exact_timing(const Episode& episode);
 /// What is not known about the times of an episode.
 struct TimingErrors {
-  double sd_s = 0;       ///< standard deviation of the times of the segments
-  double frame_s = 1;    ///< duration of a frame
-  int clock_frames = 1;  ///< frames after which the clock of the model repeats
+  double sd_s = 0;         ///< standard deviation of the times of the segments
+  double frame_s = 1;      ///< duration of a frame
+  int clock_frames = 1;    ///< frames after which the clock of the model repeats
   int history_frames = 0;  ///< simulated before every episode
 };
 /// The times of the episode with normally distributed errors, truncated at 2.5 sd, and sorted. The times are
@@ -61,8 +61,8 @@ struct EpisodeLead {
   double duration_s = 0;     ///< lead_s of SegmentTiming
   double direction_deg = 0;  ///< of the first segment; y points down
 };
-/// `places` in the order of the cells at `like`: the cells in a narrow strip along the direction get the places
-/// of that strip, the first cell the first place. So the places of the cells remain related to their
+/// `places` in the order of the cells at `like`: the cells in a narrow strip along the direction get the
+/// places of that strip, the first cell the first place. So the places of the cells remain related to their
 /// properties: slow cells are behind fast ones. Equal sizes; y points up.
 std::vector<Vec2> rearranged(const std::vector<Vec2>& places, const std::vector<Vec2>& like,
                              double direction_deg);

@@ -235,21 +235,16 @@ void ParameterSearch::fit_emulator() {
 SyntheticLikelihood ParameterSearch::likelihood(const std::vector<Index>& columns) const {
   const auto selected = columns.empty() ? all_columns(observed_.size()) : columns;
   const auto part = [&](SimulationTable t) { return SimulationTable{t.u, t.s(Eigen::all, selected)}; };
-  if (proposals_.size() <= narrowing_) {
-    const SimulationTable both = part(rows_of(all_, rows_since(1)));
-    return {both, both, observed_(selected), centre_};
-  }
-  // The compression is fitted to the simulations of earlier rounds in and near the region of the last one.
+  const SimulationTable none{MatrixXd(0, d_), MatrixXd(0, Index(selected.size()))};
+  if (proposals_.size() <= narrowing_)
+    return {part(rows_of(all_, rows_since(1))), none, observed_(selected), centre_};
+  // The compression is fitted to the simulations of earlier rounds near the region of the last one as well.
   const VectorXd margin = 0.5 * (box_.high - box_.low);
   const ParameterBox about{box_.low - margin, box_.high + margin};
   std::vector<Index> earlier;
   for (Index i = round_begin_[1]; i < round_begin_[narrowing_]; ++i)
     if (about.contains(all_.u.row(i).transpose())) earlier.push_back(i);
-  if (int(earlier.size()) < 2 * Emulator::terms(d_)) {
-    earlier.clear();
-    for (Index i = round_begin_[1]; i < round_begin_[narrowing_]; ++i) earlier.push_back(i);
-  }
-  return {part(rows_of(all_, earlier)), part(rows_of(all_, rows_since(narrowing_))), observed_(selected),
+  return {part(rows_of(all_, rows_since(narrowing_))), part(rows_of(all_, earlier)), observed_(selected),
           centre_};
 }
 

@@ -102,9 +102,9 @@ SampledEpisode sampled_episode(const IdentifyStudy& study, const Candidate& c, c
 std::vector<double> sampled_statistics(const IdentifyStudy& study, const ResponseVideo& v,
                                        const EpisodeStatistics& statistics, const SampledEpisode& sampled,
                                        const EpisodeSeeds& seeds) {
-  const EpisodeObservation seen =
-      simulate_episode(read_scenario(sampled.scenario, builtin_parts()), seeds.episode, {sampled.timing.lead_s, sampled.direction_deg},
-                       statistics.times_s(), study.look, v.ground);
+  const EpisodeObservation seen = simulate_episode(
+      read_scenario(sampled.scenario, builtin_parts()), seeds.episode,
+      {sampled.timing.lead_s, sampled.direction_deg}, statistics.times_s(), study.look, v.ground);
   std::vector<double> numbers =
       study.look == Look::video ? statistics.of_frames(seen.frames) : statistics.of_positions(seen.positions);
   StudyRandom random(seeds.episode, StudyDraws::measurement);
