@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <stdlib.h>
+#include <algorithm>
 
 #include "app/run/simulation.h"
 #include "app/scenario/parts.h"
