@@ -9,7 +9,7 @@ namespace {
 /// Linear-quadratic regulator (theory F3), designed from the plant of the swarm's mean,
 ///   a = sat(-(k_p e + k_v v + k_i integral of e)),   |a| <= 1,
 /// a fraction of `max_output` along which the cells swim. The gains minimise the sum over the frames of
-/// (|e| / error)^2 + |a|^2 for a swarm at rest. Without an estimator that predicts, the position at the time
+/// (|e| / error)^2 + |a|^2 for a swarm whose velocity is small. Without an estimator that predicts, the position at the time
 /// of the command follows from the commands since the picture. The ambient field is compensated.
 class Lqr final : public Controller {
  public:
@@ -57,7 +57,7 @@ Schema<Lqr::Params> Lqr::schema() {
                 "error of a steady flow; default: no integral"})
       .include(&Params::motion, MotionParams::schema())
       .validity(
-          "The gains are optimal for small distances and a swarm at rest. A command is weaker near the "
+          "The gains are optimal for small distances and a small velocity. A command is weaker near the "
           "setpoint, where a swarm whose speed does not depend on the field turns more slowly instead.");
 }
 
