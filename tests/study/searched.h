@@ -5,9 +5,10 @@ namespace faba {
 
 /// A search that is over: `simulate` gives the statistics at parameters.
 template <class Simulate>
-ParameterSearch searched(int d, const Eigen::VectorXd& observed, std::uint64_t seed, Simulate&& simulate) {
+ParameterSearch searched(int d, const Eigen::VectorXd& observed, std::uint64_t seed, Simulate&& simulate,
+                         SearchRounds rounds = {}) {
   ParameterSearch s(
-      d, observed, [](const Eigen::VectorXd&) { return 0.0; }, {}, seed);
+      d, observed, [](const Eigen::VectorXd&) { return 0.0; }, rounds, seed);
   while (s.next()) {
     const Eigen::MatrixXd u = *s.next();
     Eigen::MatrixXd statistics(u.rows(), observed.size());

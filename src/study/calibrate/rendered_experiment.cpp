@@ -1,7 +1,9 @@
 #include "study/calibrate/rendered_experiment.h"
 
 #include <fmt/format.h>
+
 #include <stdlib.h>
+#include <algorithm>
 
 #include "app/run/simulation.h"
 #include "app/scenario/parts.h"
@@ -70,7 +72,7 @@ std::vector<ResponseVideo> rendered_experiment(const IdentifyStudy& study, const
     ResponseInput input;
     input.file = dir / "video.avi";
     input.experiment = v.input.experiment.empty() ? fmt::format("video {}", i + 1) : v.input.experiment;
-    input.exposure_s = v.input.exposure_s;
+    input.exposure_s = std::max(0.0, v.input.exposure_s + episode.start_s - sampled.timing.lead_s);
     input.threads = 1;
     input.um_per_px = v.um_per_px;
     input.segments = episode.segments;

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
+#include <numeric>
 
 #include "app/run/simulation.h"
 #include "study/stats/study_random.h"
@@ -40,6 +42,29 @@ Json field_along(double direction_deg, double strength_t, bool north) {
   return {quantity(b * direction.x, "T"), quantity(-b * direction.y, "T")};
 }
 
+// The field in the segments, and `before` them. The controller sets it at the first frame that is not earlier
+// than a segment. Times between frames are rounded to the nearest frame; otherwise all reversals would be
+// half a frame late on average. Of segments that start at the same frame the last one counts.
+Json controller_of(const Episode& e, const SegmentTiming& timing, double fps,
+                   const std::function<Json(double)>& along, Json before) {
+  Json first = std::move(before), segments = Json::array();
+  double last_s = 0;
+  for (std::size_t i = 0; i < e.segments.size(); ++i) {
+    const double at_s = std::round(timing.starts_s[i] * fps) / fps;
+    const Json field = along(e.segments[i].direction_deg);
+    if (at_s <= 0)
+      first = field;
+    else if (at_s == last_s)
+      segments.back()["field"] = field;
+    else
+      segments.push_back({{"at", quantity(at_s, "s")}, {"field", field}});
+    last_s = at_s;
+  }
+  Json controller{{"type", "manual"}, {"field", first}};
+  if (!segments.empty()) controller["segment"] = segments;
+  return controller;
+}
+
 // Divides the swarm into equal populations.
 void add_populations(Json& swarms, const Variant& model) {
   const auto populations = model.extra.value(kPopulations, std::size_t(1));
@@ -48,19 +73,50 @@ void add_populations(Json& swarms, const Variant& model) {
   while (swarms.size() < populations) swarms.push_back(swarms[0]);
 }
 
+std::vector<Vec2> positions_of(const State& state) {
+  const auto x = state.agents["x"], y = state.agents["y"];
+  std::vector<Vec2> positions;
+  for (std::size_t i = 0; i < x.size(); ++i) positions.push_back({double(x[i]), double(y[i])});
+  return positions;
+}
+
+// Order of positions in m: by strips along the direction, with equal numbers of cells, and along it within a
+// strip. y points up.
+std::vector<std::size_t> strip_order(const std::vector<Vec2>& positions, double direction_deg) {
+  const Vec2 image = unit_vector(direction_deg), along{image.x, -image.y}, across{-along.y, along.x};
+  std::vector<std::size_t> order(positions.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  const auto by = [&](Vec2 axis) {
+    return [&positions, axis](std::size_t a, std::size_t b) {
+      return dot(positions[a], axis) < dot(positions[b], axis);
+    };
+  };
+  std::stable_sort(order.begin(), order.end(), by(across));
+  const std::size_t strip = std::size_t(std::ceil(std::sqrt(double(order.size()))));
+  for (std::size_t i = 0; i < order.size(); i += strip)
+    std::stable_sort(order.begin() + std::ptrdiff_t(i),
+                     order.begin() + std::ptrdiff_t(std::min(i + strip, order.size())), by(along));
+  return order;
+}
+
 /// Records the frames or cell positions at the times of the statistics.
 class EpisodeSink final : public Sink {
  public:
-  EpisodeSink(const std::vector<double>& times, double lead_s, Simulation& simulation, const Scenario& s,
-              Look look)
-      : simulation_(simulation), look_(look) {
+  EpisodeSink(const std::vector<double>& times, const EpisodeLead& lead, Simulation& simulation,
+              const Scenario& s, Look look)
+      : simulation_(simulation),
+        look_(look),
+        lead_(lead),
+        start_(std::uint64_t(std::lround(lead.duration_s * s.camera.rate))),
+        initial_(positions_of(simulation.world().state())) {
     for (std::size_t i = 0; i < times.size(); ++i) {
-      const double frame = std::round((times[i] + lead_s) * s.camera.rate);
+      const double frame = std::round((times[i] + lead.duration_s) * s.camera.rate);
       wanted_[std::uint64_t(std::clamp(frame, 0.0, double(s.frames() - 1)))].push_back(i);
     }
     look == Look::video ? seen.frames.resize(times.size()) : seen.positions.resize(times.size());
   }
   void take(const Tick& t) override {
+    if (t.index == start_ && start_ > 0) restore_positions();
     const auto it = wanted_.find(t.index);
     if (it == wanted_.end()) return;
     for (const std::size_t i : it->second)
@@ -69,6 +125,17 @@ class EpisodeSink final : public Sink {
   EpisodeObservation seen;
 
  private:
+  // The initial positions were measured at the start of the episode.
+  void restore_positions() {
+    State now = simulation_.world().state();
+    const std::vector<Vec2> places = rearranged(initial_, positions_of(now), lead_.direction_deg);
+    const auto x = now.agents["x"], y = now.agents["y"];
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      x[i] = float(places[i].x);
+      y[i] = float(places[i].y);
+    }
+    simulation_.world().restore(now);
+  }
   void take_picture(GrayF& out) {
     const ImageRef picture = simulation_.rig().picture();
     out = GrayF(picture->width, picture->height);
@@ -83,6 +150,9 @@ class EpisodeSink final : public Sink {
   }
   Simulation& simulation_;
   Look look_;
+  EpisodeLead lead_;
+  std::uint64_t start_;              ///< first frame of the episode
+  const std::vector<Vec2> initial_;  ///< measured positions, m
   std::map<std::uint64_t, std::vector<std::size_t>> wanted_;
 };
 
@@ -94,12 +164,14 @@ SegmentTiming exact_timing(const Episode& e) {
   return t;
 }
 
-SegmentTiming random_timing(const Episode& e, double sd_s, std::uint64_t seed) {
+SegmentTiming random_timing(const Episode& e, const TimingErrors& errors, std::uint64_t seed) {
   StudyRandom random(seed, StudyDraws::timing);
   SegmentTiming t;
   for (const FieldSegment& d : e.segments)
-    t.starts_s.push_back(d.t0_s + sd_s * std::clamp(random.normal(), -2.5, 2.5));
-  t.lead_s = std::max(0.0, -t.starts_s.front());
+    t.starts_s.push_back(d.t0_s + errors.sd_s * std::clamp(random.normal(), -2.5, 2.5));
+  const double early = std::ceil(std::max(0.0, -t.starts_s.front()) / errors.frame_s);
+  t.lead_s = errors.frame_s *
+             (early + errors.history_frames + double(random.below(std::size_t(errors.clock_frames))));
   for (double& start : t.starts_s) start += t.lead_s;
   std::sort(t.starts_s.begin(), t.starts_s.end());
   return t;
@@ -114,7 +186,7 @@ Document episode_scenario(const ResponseVideo& v, const Episode& e, const Episod
   const double px = v.um_per_px * settings.scale_factor;
   d.root = {{"title", e.name},
             {"duration", quantity(timing.lead_s + e.length_s() + 1 / v.fps, "s")},
-            {"exposure", quantity(v.input.exposure_s, "s")},
+            {"exposure", quantity(std::max(0.0, v.input.exposure_s + e.start_s - timing.lead_s), "s")},
             {"scale", {{"um_per_px", px}}},
             {"camera", {{"rate", quantity(v.fps, "Hz")}}},
             {"microscope",
@@ -137,22 +209,24 @@ Document episode_scenario(const ResponseVideo& v, const Episode& e, const Episod
     swarm["heading"] = quantity(-(e.segments[0].direction_deg + 180), "deg");
   const bool north = swarm.contains("polarity") && swarm["polarity"] == "north";
   const auto along = [&](double deg) { return field_along(deg, settings.field_strength_t, north); };
-  Json first = along(e.segments[0].direction_deg), segments = Json::array();
-  if (timing.starts_s[0] > 0)
-    first =
-        settings.boundary == Boundary::none ? Json{"0 T", "0 T"} : along(e.segments[0].direction_deg + 180);
-  for (std::size_t i = 0; i < e.segments.size(); ++i)
-    if (timing.starts_s[i] > 0)
-      segments.push_back(
-          {{"at", quantity(timing.starts_s[i], "s")}, {"field", along(e.segments[i].direction_deg)}});
-  d.root["controller"] = {{"type", "manual"}, {"field", first}};
-  if (!segments.empty()) d.root["controller"]["segment"] = segments;
+  d.root["controller"] = controller_of(
+      e, timing, v.fps, along,
+      settings.boundary == Boundary::none ? Json{"0 T", "0 T"} : along(e.segments[0].direction_deg + 180));
   add_populations(d.root["swarm"], settings.model);
   apply(settings.model, "model", d);
   return d;
 }
 
-EpisodeObservation simulate_episode(const Scenario& s, std::uint64_t seed, double lead_s,
+std::vector<Vec2> rearranged(const std::vector<Vec2>& places, const std::vector<Vec2>& like,
+                             double direction_deg) {
+  const std::vector<std::size_t> from = strip_order(places, direction_deg),
+                                 to = strip_order(like, direction_deg);
+  std::vector<Vec2> out(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i) out[to[i]] = places[from[i]];
+  return out;
+}
+
+EpisodeObservation simulate_episode(const Scenario& s, std::uint64_t seed, const EpisodeLead& lead,
                                     const std::vector<double>& times_s, Look look,
                                     const std::shared_ptr<const VideoBackground>& ground) {
   Pool pool(1);
@@ -160,7 +234,7 @@ EpisodeObservation simulate_episode(const Scenario& s, std::uint64_t seed, doubl
   scenario.record = {};
   scenario.record.as_seen = look == Look::video;
   Simulation simulation(scenario, seed, pool, ground);
-  EpisodeSink sink(times_s, lead_s, simulation, scenario, look);
+  EpisodeSink sink(times_s, lead, simulation, scenario, look);
   simulation.loop().sinks.push_back(&sink);
   run(simulation.loop(), s.frames(), [] { return true; });
   return std::move(sink.seen);

@@ -69,7 +69,8 @@ void rate(Identification& r, const Lead& plain, const Lead& next) {
   const bool fits = best.fit_p >= FoundModel::kDoubtfulFit && !best.missed_family();
   const bool all_converged = std::all_of(
       r.models.begin(), r.models.end(), [](const FoundModel& m) { return !m.failed.empty() || m.converged; });
-  if (plain.clear() && !next.clear() && next.extended) r.rival = next.model;
+  // An extended model that makes clear evidence unclear, or is better than the best model.
+  if (next.extended && !next.clear() && (plain.clear() || next.mean < 0)) r.rival = next.model;
   r.evidence = next.clear() && fits && all_converged ? "clear" : next.mean > next.se ? "weak" : "none";
   // Without evidence the model with fewer parameters is preferred.
   std::string simpler;

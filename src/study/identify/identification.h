@@ -121,7 +121,8 @@ struct Identification {
   std::string words;      ///< the evidence as a sentence
   double score_lead = 0;  ///< mean difference of energy scores per experiment: second-best minus best model
   std::optional<std::array<double, 2>> score_lead_ci95;
-  /// Model whose extension by a family removes the clear evidence for the best one; empty for none.
+  /// Model whose extension by a family removes the clear evidence for the best one, or is better than it;
+  /// empty for none.
   std::optional<std::size_t> rival = {};
   std::vector<LegacyModel> legacy;  ///< rule of the thesis for each candidate, when requested
 };

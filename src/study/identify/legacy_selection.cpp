@@ -160,7 +160,7 @@ std::vector<double> simulate_legacy(const IdentifyStudy& study, const std::vecto
   h.value(e);
   h.value(int(t.simulation.repeat));
   const LegacyReference& r = references[v][e];
-  return distances(r, simulate_episode(read_scenario(d, builtin_parts()), h.result() >> 1, 0, r.times_s,
+  return distances(r, simulate_episode(read_scenario(d, builtin_parts()), h.result() >> 1, {}, r.times_s,
                                        Look::video, video.ground)
                           .frames);
 }

@@ -63,7 +63,7 @@ void match_look(ResponseVideo& v, const GrayF& frame, Boundary boundary) {
   for (int i = 0; i < kIterations; ++i) {
     const Document d = episode_scenario(v, still, settings, exact_timing(still));
     const EpisodeObservation seen =
-        simulate_episode(read_scenario(d, builtin_parts()), 1, 0, {0.0}, Look::video, v.ground);
+        simulate_episode(read_scenario(d, builtin_parts()), 1, {}, {0.0}, Look::video, v.ground);
     const CellLook current = look_of(detector.find(seen.frames.front()), isolation_px);
     if (!(current.mass > 0)) return;
     const double width_ratio = std::clamp(target.size_px / current.size_px, 0.5, 2.0),

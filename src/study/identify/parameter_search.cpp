@@ -21,15 +21,18 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kNearFraction = 0.2;    // of the simulations: centres of the next proposal
-constexpr double kWider = 1.8;           // sd of the last round over sd of the posterior
-constexpr double kMaxSquare = 25;        // limit of a squared difference of a statistic, in robust sd
-constexpr double kAbcFraction = 0.25;    // of the simulations since the second round: accepted by ABC
-constexpr std::size_t kRepetitions = 2;  // of the last round, at most
+constexpr double kNearFraction = 0.2;  // of the simulations: centres of the next proposal
+constexpr double kWider = 1.8;         // sd of the last round over sd of the posterior
+constexpr double kMaxSquare = 25;      // limit of a squared difference of a statistic, in robust sd
+constexpr double kAbcFraction = 0.25;  // of the simulations since the second round: accepted by ABC
+constexpr std::size_t kMostLast = 3;   // last rounds, at most
 // Rounds before the last one: over the full ranges, then around the nearest simulations. With more parameters
 // the region has to be narrowed once more before a quadratic function describes it.
 constexpr int kFewParameters = 3;
 std::size_t narrowing_rounds(int d) { return d > kFewParameters ? 4 : 3; }
+// With more parameters the first of the last rounds is wide, and too few of its simulations are near the
+// posterior.
+std::size_t least_last_rounds(int d) { return d > kFewParameters ? 2 : 1; }
 constexpr double kMaxAtLimit = 0.01;  // fraction of the posterior at a limit of the last round
 constexpr int kProposalDraws = 400;   // posterior samples that define the last round
 
@@ -200,7 +203,8 @@ void ParameterSearch::take(const MatrixXd& statistics) {
     return;
   }
   fit_emulator();
-  if (done > narrowing_ && (done == narrowing_ + 1 + kRepetitions || !truncated())) return;
+  const std::size_t last = done - narrowing_;
+  if (last == kMostLast || (last >= least_last_rounds(d_) && !truncated())) return;
   const MatrixXd draws = posterior({}, kProposalDraws, derived_seed(seed_, SeedUse::proposal));
   propose({draws.colwise().mean(), kWider * kWider * covariance_of(draws), 0}, rounds_.last);
 }
@@ -235,21 +239,16 @@ void ParameterSearch::fit_emulator() {
 SyntheticLikelihood ParameterSearch::likelihood(const std::vector<Index>& columns) const {
   const auto selected = columns.empty() ? all_columns(observed_.size()) : columns;
   const auto part = [&](SimulationTable t) { return SimulationTable{t.u, t.s(Eigen::all, selected)}; };
-  if (proposals_.size() <= narrowing_) {
-    const SimulationTable both = part(rows_of(all_, rows_since(1)));
-    return {both, both, observed_(selected), centre_};
-  }
-  // The compression is fitted to the simulations of earlier rounds in and near the region of the last one.
+  const SimulationTable none{MatrixXd(0, d_), MatrixXd(0, Index(selected.size()))};
+  if (proposals_.size() <= narrowing_)
+    return {part(rows_of(all_, rows_since(1))), none, observed_(selected), centre_};
+  // The compression is fitted to the simulations of earlier rounds near the region of the last one as well.
   const VectorXd margin = 0.5 * (box_.high - box_.low);
   const ParameterBox about{box_.low - margin, box_.high + margin};
   std::vector<Index> earlier;
   for (Index i = round_begin_[1]; i < round_begin_[narrowing_]; ++i)
     if (about.contains(all_.u.row(i).transpose())) earlier.push_back(i);
-  if (int(earlier.size()) < 2 * Emulator::terms(d_)) {
-    earlier.clear();
-    for (Index i = round_begin_[1]; i < round_begin_[narrowing_]; ++i) earlier.push_back(i);
-  }
-  return {part(rows_of(all_, earlier)), part(rows_of(all_, rows_since(narrowing_))), observed_(selected),
+  return {part(rows_of(all_, rows_since(narrowing_))), part(rows_of(all_, earlier)), observed_(selected),
           centre_};
 }
 

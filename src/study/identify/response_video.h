@@ -14,7 +14,7 @@ namespace faba {
 
 /// Boundary that confines the cells.
 enum class Boundary {
-  drop,  ///< edge of a drop, detected in the first frame
+  drop,  ///< edge of a drop, detected in the background of the video
   box,   ///< rectangle equal to the view
   none   ///< no boundary near the view
 };

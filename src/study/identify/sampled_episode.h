@@ -21,6 +21,7 @@ struct EpisodeSeeds {
 struct SampledEpisode {
   Document scenario;
   SegmentTiming timing;
+  double direction_deg = 0;  ///< of the first segment
 };
 
 /// Samples everything that is known with an uncertainty only: times of field reversals, number of cells,

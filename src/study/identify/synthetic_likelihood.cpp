@@ -11,6 +11,45 @@ namespace {
 
 constexpr double kPriorPrecision = 12;  // of a uniform distribution on 0 to 1; bounds uninformed parameters
 constexpr int kThinning = 20;
+constexpr Eigen::Index kFolds = 5;  // of the simulations, each compressed by the others
+
+// All simulations but those of a fold of `fit`.
+SimulationTable without_fold(const SimulationTable& fit, Eigen::Index fold, const SimulationTable& more) {
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < fit.size(); ++i)
+    if (i % kFolds != fold) rows.push_back(i);
+  const SimulationTable rest = rows_of(fit, rows);
+  SimulationTable all{Eigen::MatrixXd(rest.size() + more.size(), fit.u.cols()),
+                      Eigen::MatrixXd(rest.size() + more.size(), fit.s.cols())};
+  all.u << rest.u, more.u;
+  all.s << rest.s, more.s;
+  return all;
+}
+
+/// Estimate of the parameters relative to a centre: weights * statistics - at_centre.
+struct LinearEstimate {
+  Eigen::MatrixXd weights;
+  Eigen::VectorXd at_centre;
+};
+
+LinearEstimate linear_estimate(const SimulationTable& simulations, const Eigen::VectorXd& centre) {
+  const Emulator emulator(simulations.u, simulations.s);
+  // In units of their noise. Statistics without noise are ignored.
+  const Eigen::MatrixXd covariance = emulator.covariance();
+  const Eigen::VectorXd scale =
+      covariance.diagonal().cwiseSqrt().unaryExpr([](double sd) { return sd > 1e-9 ? 1 / sd : 0.0; });
+  Eigen::MatrixXd noise = scale.asDiagonal() * covariance * scale.asDiagonal();
+  for (Eigen::Index j = 0; j < scale.size(); ++j)
+    if (scale[j] == 0) noise(j, j) = 1;
+  const Eigen::MatrixXd slope = scale.asDiagonal() * emulator.slope(centre);
+  const Eigen::MatrixXd weighted = shrunk(noise, emulator.freedom()).ldlt().solve(slope).transpose();
+  Eigen::MatrixXd information = weighted * slope;
+  information.diagonal().array() += kPriorPrecision;
+  LinearEstimate e;
+  e.weights = information.ldlt().solve(weighted) * scale.asDiagonal();
+  e.at_centre = e.weights * emulator.mean(centre);
+  return e;
+}
 
 }  // namespace
 
@@ -18,24 +57,19 @@ SimulationTable rows_of(const SimulationTable& t, const std::vector<Eigen::Index
   return {t.u(rows, Eigen::all), t.s(rows, Eigen::all)};
 }
 
-SyntheticLikelihood::SyntheticLikelihood(const SimulationTable& compression, const SimulationTable& fit,
+SyntheticLikelihood::SyntheticLikelihood(const SimulationTable& fit, const SimulationTable& more,
                                          const Eigen::VectorXd& observed, const Eigen::VectorXd& centre) {
-  const Emulator first(compression.u, compression.s);
-  const Eigen::Index d = centre.size(), p = observed.size();
-  // In units of their noise. Statistics without noise are ignored.
-  const Eigen::VectorXd sd = first.covariance().diagonal().cwiseSqrt();
-  const Eigen::VectorXd scale = sd.unaryExpr([](double x) { return x > 1e-9 ? 1 / x : 0.0; });
-  Eigen::MatrixXd noise = scale.asDiagonal() * first.covariance() * scale.asDiagonal();
-  for (Eigen::Index j = 0; j < p; ++j)
-    if (scale[j] == 0) noise(j, j) = 1;
-  const Eigen::MatrixXd slope = scale.asDiagonal() * first.slope(centre);
-  const Eigen::MatrixXd weighted = shrunk(noise, first.freedom()).ldlt().solve(slope).transpose();
-  Eigen::MatrixXd information = weighted * slope;
-  information.diagonal().array() += kPriorPrecision;
-  compression_ = information.ldlt().solve(weighted) * scale.asDiagonal();
-  at_centre_ = first.mean(centre);
+  const Eigen::Index d = centre.size();
+  compression_ = Eigen::MatrixXd::Zero(d, observed.size());
+  at_centre_ = Eigen::VectorXd::Zero(d);
   Eigen::MatrixXd t(fit.size(), d);
-  for (Eigen::Index i = 0; i < fit.size(); ++i) t.row(i) = compressed(fit.s.row(i).transpose()).transpose();
+  for (Eigen::Index fold = 0; fold < kFolds; ++fold) {
+    const LinearEstimate e = linear_estimate(without_fold(fit, fold, more), centre);
+    for (Eigen::Index i = fold; i < fit.size(); i += kFolds)
+      t.row(i) = (e.weights * fit.s.row(i).transpose() - e.at_centre).transpose();
+    compression_ += e.weights / double(kFolds);
+    at_centre_ += e.at_centre / double(kFolds);
+  }
   observed_ = compressed(observed);
   emulator_ = std::make_unique<Emulator>(fit.u, t);
   Eigen::MatrixXd covariance = emulator_->covariance();

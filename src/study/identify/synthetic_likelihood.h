@@ -19,24 +19,26 @@ SimulationTable rows_of(const SimulationTable& t, const std::vector<Eigen::Index
 
 /// Synthetic likelihood (Wood 2010): the statistics of a simulation are normally distributed about a mean
 /// that depends on the parameters. The statistics are first compressed to one number for each parameter, its
-/// best linear estimate near `centre`. Mean and covariance of the compressed statistics are estimated from
-/// separate simulations; the uncertainty of these estimates gives Student's t distribution instead of a
-/// normal one.
+/// best linear estimate near `centre`. The compression of a simulation is fitted to the other simulations
+/// (cross-fitting in five folds), because a compression that knows the noise of a simulation underestimates
+/// it. The uncertainty of mean and covariance of the compressed statistics gives Student's t distribution
+/// instead of a normal one.
 class SyntheticLikelihood {
  public:
-  /// `compression`: simulations to fit the compression; `fit`: simulations to fit the likelihood. Both must
-  /// have more than Emulator::terms(d) rows.
-  SyntheticLikelihood(const SimulationTable& compression, const SimulationTable& fit,
+  /// `fit`: simulations of the likelihood and of the compression, more than 1.25 Emulator::terms(d) rows;
+  /// `more`: further simulations of the compression, may be empty.
+  SyntheticLikelihood(const SimulationTable& fit, const SimulationTable& more,
                       const Eigen::VectorXd& observed, const Eigen::VectorXd& centre);
 
   /// Log-likelihood at `u`, up to a constant.
   double log_likelihood(const Eigen::VectorXd& u) const;
   /// Best linear estimate of the parameters from statistics, relative to the centre.
-  Eigen::VectorXd compressed(const Eigen::VectorXd& s) const { return compression_ * (s - at_centre_); }
+  Eigen::VectorXd compressed(const Eigen::VectorXd& s) const { return compression_ * s - at_centre_; }
 
  private:
-  Eigen::MatrixXd compression_;  ///< d x p
-  Eigen::VectorXd at_centre_, observed_;
+  Eigen::MatrixXd compression_;  ///< d x p, mean of the folds
+  Eigen::VectorXd at_centre_;    ///< compressed statistics that are expected at the centre
+  Eigen::VectorXd observed_;
   std::unique_ptr<Emulator> emulator_;
   Eigen::MatrixXd precision_;
 };

@@ -299,9 +299,9 @@ std::vector<EpisodePictures> episode_pictures(const Identification& r) {
       one.name = episode.name;
       one.t_s = picture_times(episode);
       one.real = v.pictures[e];
-      one.simulated =
-          simulate_episode(read_scenario(d, builtin_parts()), r.study.seed, 0, one.t_s, Look::video, v.ground)
-              .frames;
+      one.simulated = simulate_episode(read_scenario(d, builtin_parts()), r.study.seed, {}, one.t_s,
+                                       Look::video, v.ground)
+                          .frames;
       one.distribution = distribution_figure(one, v, episode.segments.front().direction_deg);
     }
   return all;

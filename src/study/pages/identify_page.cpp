@@ -56,8 +56,8 @@ std::string simulations_text(const Identification& r) {
     if (m.failed.empty()) rounds += fmt::format("{}{} {}", rounds.empty() ? "" : ", ", m.name, m.rounds);
   return fmt::format(
       "Valid simulations: per video, of all rounds. The study requests {} in four rounds, and "
-      "one more round if a model has more than three parameters; the last round is repeated, at most twice, "
-      "while the posterior extends beyond it (rounds: {}), and simulations without "
+      "two more rounds if a model has more than three parameters; rounds are added while the posterior "
+      "extends beyond the last one (rounds: {}), and simulations without "
       "a result, for example without cells in view, are not counted.",
       r.study.simulations, escape_markup(rounds));
 }

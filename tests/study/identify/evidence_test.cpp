@@ -93,6 +93,24 @@ TEST_CASE("evidence: not clear when another model explains the videos as well if
   CHECK(identify_warnings(r).empty());
 }
 
+TEST_CASE(
+    "evidence: an extended model that is better than the best one is named, also without clear evidence") {
+  Identification r = compared();
+  r.models[0].scores = {0.5, 1.6, 0.9, 1.4};  // not clearly worse than "basic"
+  r.models[0].score = 1.1;
+  r.models[0].families = {tumbling()};
+  r.models[0].extension = 0;
+  r.models[0].extended_scores = {0.8, 0.9, 0.8, 0.9};
+  judge(r);
+  CHECK(r.best == 1);
+  CHECK(r.evidence == "none");
+  CHECK(warns(r, "turning", "swarm[0].model.tumble_rate"));
+  r.models[0].extended_scores = {0.5, 1.6, 0.9, 1.35};  // no better than "basic"
+  r.rival = {};
+  judge(r);
+  CHECK(identify_warnings(r).empty());
+}
+
 TEST_CASE("warnings: doubts about nuisance parameters are not reported") {
   Identification r = compared();
   FoundParameter p;

@@ -88,6 +88,44 @@ TEST_CASE("parameter search: posterior mean, width and coverage for a linear mod
   CHECK(abc_covered > 0.9 - 4 * 0.034);
 }
 
+// As in a video: many statistics, whose noise is mainly common, for few simulations.
+TEST_CASE("parameter search: coverage with nearly as many statistics as simulations") {
+  constexpr Index kMany = 60;
+  MatrixXd a(kMany, 1), common(kMany, 2);
+  StudyRandom fixed(6, StudyDraws{1});
+  for (Index i = 0; i < kMany; ++i) {
+    a(i, 0) = fixed.normal();
+    for (Index j = 0; j < 2; ++j) common(i, j) = 0.5 * fixed.normal();
+  }
+  const auto simulate = [&](const VectorXd& u, StudyRandom& random) {
+    VectorXd z(2), own(kMany);
+    for (double& x : z) x = random.normal();
+    for (double& x : own) x = random.normal();
+    return VectorXd(a * u + common * z + own);
+  };
+  const MatrixXd noise = common * common.transpose() + MatrixXd::Identity(kMany, kMany);
+  const double sd = 1 / std::sqrt((a.transpose() * noise.inverse() * a)(0, 0));
+  REQUIRE(sd < 0.15);
+  constexpr int kSets = 40;
+  double ratio = 0, covered = 0;
+  for (int k = 0; k < kSets; ++k) {
+    StudyRandom random(100 + std::uint64_t(k), StudyDraws{2});
+    const VectorXd truth = VectorXd::Constant(1, 0.4 + 0.2 * random.uniform()),
+                   seen = simulate(truth, random);
+    const VectorXd u = searched(
+                           1, seen, std::uint64_t(k),
+                           [&](const VectorXd& at) { return simulate(at, random); }, SearchRounds::of(150))
+                           .posterior({}, 600, 3);
+    ratio += std::sqrt((u.array() - u.mean()).square().mean()) / sd / kSets;
+    covered += truth[0] >= quantile(u, 0.05) && truth[0] <= quantile(u, 0.95) ? 1.0 / kSets : 0;
+  }
+  CAPTURE(ratio);
+  CAPTURE(covered);
+  CHECK(ratio < 1.3);
+  // 90 % with an accuracy of sqrt(0.9 0.1 / 40) = 4.7 %.
+  CHECK(covered > 0.9 - 3 * 0.047);
+}
+
 TEST_CASE("parameter search: a parameter without effect keeps its prior range") {
   const LinearModel model;
   StudyRandom random(9, StudyDraws{2});

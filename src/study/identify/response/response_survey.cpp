@@ -141,7 +141,8 @@ std::vector<Episode> episodes_of(const ResponseVideo& v, Boundary boundary,
   for (FieldSegment d : segments) {
     if (boundary == Boundary::none || episodes.empty()) {
       Episode& e = episodes.emplace_back();
-      e.start_s = d.t0_s;
+      // Simulations begin at the frame in which the initial positions are measured.
+      e.start_s = std::round(d.t0_s * v.fps) / v.fps;
       e.name = v.input.experiment.empty() ? v.input.file.stem().string() : v.input.experiment;
       if (boundary == Boundary::none && segments.size() > 1) e.name += fmt::format(", {:.3g} s", e.start_s);
     }
@@ -232,7 +233,8 @@ TrackSurvey survey_view(ResponseVideo& v, Boundary boundary, Measure measure,
   if (boundary == Boundary::drop) {
     DropEdgeOptions edge;
     edge.name = name;
-    v.edge = find_drop_edge(s.first, edge);
+    // In the background, because cells that gather at the edge would shift it by about a pixel.
+    v.edge = find_drop_edge(v.view.background->level, edge);
   }
   // Notes on spot detection refer to options of `track` and do not apply here.
   std::erase_if(s.notes,
