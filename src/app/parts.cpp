@@ -48,6 +48,7 @@ namespace faba {
   X(controller, proportional)  \
   X(controller, lqr)           \
   X(controller, mpc)           \
+  X(controller, compact)       \
   X(controller, gradient)      \
   X(controller, gradient_feedback)
 

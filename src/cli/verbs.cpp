@@ -24,6 +24,7 @@ namespace faba::cli {
   X(design)              \
   X(tune)                \
   X(compare_controllers) \
+  X(benchmark_control)   \
   X(identify)            \
   X(calibrate)           \
   X(study)               \

@@ -14,13 +14,15 @@ constexpr std::array kMessages = {
     "is a study for `faba activity`",
     "is a study for `faba compare-controllers`",
     "is a study for `faba moment`",
-    "is a file for `faba calibrate`"};
+    "is a file for `faba calibrate`",
+    "is a benchmark for `faba benchmark-control`"};
 
 }  // namespace
 
 std::optional<FileKind> file_kind(const Node& root) {
   const auto is_list = [&](const char* key) { return root.has(key) && root.child(key).json->is_array(); };
   if (is_list("swarm")) return FileKind::scenario;
+  if (is_list("case")) return FileKind::control_benchmark;
   if (is_list("coil")) return FileKind::coil_system;
   if (root.has("scene") && root.child("scene").json->is_string()) return FileKind::controller_study;
   if (root.has("study") && root.child("study").json->is_string()) return FileKind::calibration_study;

@@ -13,7 +13,8 @@ enum class FileKind {
   activity_study,
   controller_study,
   moment_study,
-  calibration_study
+  calibration_study,
+  control_benchmark
 };
 
 /// The kind that the keys of a document show; empty when they show none.

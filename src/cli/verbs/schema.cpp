@@ -12,6 +12,7 @@
 #include "study/identify/identify.h"
 #include "study/motion/activity_study.h"
 #include "study/optics/optics_setup.h"
+#include "study/steering/control_benchmark.h"
 #include "study/steering/controller_study.h"
 #include "study/uturn/moment_study.h"
 
@@ -71,6 +72,7 @@ int schema(const std::string& file, const CLI::App& app, const Common& c) {
                  : file == "identify"            ? identify_study_schema()
                  : file == "calibrate"           ? calibration_study_schema()
                  : file == "compare-controllers" ? controller_study_schema()
+                 : file == "benchmark-control"   ? control_benchmark_schema()
                  : file == "activity"            ? activity_study_schema()
                  : file == "moment"              ? moment_study_schema()
                  : file == "optics"              ? OpticsSetup::schema().json_schema()
@@ -93,8 +95,8 @@ void add_schema(CLI::App& app, CommandLine& line) {
        "Kind of file: scenario (default), rig, experiment or engine; the verb that reads the study "
        "file; series, which lists the columns of series.csv; or verbs, which lists all commands with "
        "their options")
-      ->check(one_of({"scenario", "rig", "identify", "calibrate", "compare-controllers", "activity", "moment",
-                      "optics", "experiment", "engine", "series", "verbs"}));
+      ->check(one_of({"scenario", "rig", "identify", "calibrate", "compare-controllers", "benchmark-control",
+                      "activity", "moment", "optics", "experiment", "engine", "series", "verbs"}));
   v->callback([of, &app, &line] { line.code = schema(*of, app, line.common); });
 }
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <limits>
-#include <numbers>
+
+#include "core/portable_math.h"
 
 namespace faba {
 
@@ -69,9 +69,9 @@ Vec2 catmull_rom(const std::array<Vec2, 4>& p, double u) {
 int steps_of(double length, double step) { return std::max(1, int(std::ceil(length / step))); }
 
 std::vector<Vec2> sampled(double size, double step, auto&& point) {
-  const int n = std::max(64, steps_of(std::numbers::pi * size, step));
+  const int n = std::max(64, steps_of(portable::kPi * size, step));
   std::vector<Vec2> out;
-  for (int i = 0; i <= n; ++i) out.push_back(point(2 * std::numbers::pi * i / n));
+  for (int i = 0; i <= n; ++i) out.push_back(point(2 * portable::kPi * i / n));
   out.back() = out.front();
   return out;
 }
@@ -104,13 +104,14 @@ std::vector<Vec2> spline_through(std::span<const Vec2> points, bool closed, doub
 
 std::vector<Vec2> figure_eight(Vec2 centre, double size, double step) {
   return sampled(1.2 * size, step, [&](double t) {
-    return centre + Vec2{size / 2 * std::sin(t), -size / 4 * std::sin(2 * t)};
+    return centre + Vec2{size / 2 * portable::sincos(t).sin, -size / 4 * portable::sincos(2 * t).sin};
   });
 }
 
 std::vector<Vec2> circle(Vec2 centre, double size, double step) {
   return sampled(size, step, [&](double t) {
-    return centre + Vec2{size / 2 * std::cos(t), size / 2 * std::sin(t)};
+    const auto turn = portable::sincos(t);
+    return centre + Vec2{size / 2 * turn.cos, size / 2 * turn.sin};
   });
 }
 

@@ -24,6 +24,12 @@ struct ControllerStudy {
   int seeds = 20;           ///< trials of each combination, with consecutive seeds from `first_seed`
   std::uint64_t first_seed = 1;
   std::shared_ptr<const Parts> parts = nullptr;  ///< of the scenarios; null: those of the program
+  std::string ranked_by = "steady_rms_px";       ///< metric of the best controller
+  /// Controllers with which all others are compared: the best of them, with the same model and delay.
+  std::vector<std::string> baseline = {};
+  /// Polygons that the swarm must not enter, image coordinates; controllers with obstacles are told them.
+  std::vector<std::vector<Vec2>> keep_out_px = {};
+  std::string label = {};  ///< distinguishes studies with their results in one store
 };
 /// Reads a study file: `scene`, `seeds`, `first_seed`, `delays`, [[controller]], [[model]] (see Variant).
 /// Throws Error(usage).
@@ -48,15 +54,19 @@ struct Combination {
   std::array<double, 2> settled_ci95{};  ///< of the fraction of trials that settle (Wilson)
   /// Mean over the seeds and standard deviation, for each frame.
   std::vector<double> t_s, distance_px, distance_sd_px, rms_radius_px, rms_radius_sd_px;
-  /// Steady-state error minus that of the best controller with the same model and delay: mean of the paired
+  /// `ranked_by` minus that of the best controller with the same model and delay: mean of the paired
   /// differences over the seeds, with interval. Empty for the best controller.
   std::optional<MeanOverSeeds> excess_over_best;
+  /// Comparison with the best controller of the baseline; empty for those of the baseline.
+  std::string baseline;
+  std::map<std::string, MeanOverSeeds> minus_baseline;  ///< paired differences, by metric
 };
 
 struct ControllerComparison {
   ControllerStudy study;
   std::vector<Combination> combinations;  ///< by model, delay and controller, in the order of the study
   std::vector<std::string> notes = {};    ///< notes on doubtful settings of the scene
+  double um_per_px = 1;                   ///< of the first combination
 };
 
 /// JSON Schema of a study file.

@@ -67,6 +67,14 @@ constexpr MetricInfo kMetrics[] = {
      .in_um = "µm",
      .compared = true,
      .value = &M::steady_rms_px},
+    {.key = "steady_max_px",
+     .group = kStaying,
+     .name = "Largest distance",
+     .meaning = "over the last third of the frames",
+     .unit = "px",
+     .in_um = "µm",
+     .compared = true,
+     .value = &M::steady_max_px},
     {.key = "final_distance_px",
      .group = kStaying,
      .name = "Final distance",
@@ -167,15 +175,50 @@ constexpr MetricInfo kMetrics[] = {
      .compared = true,
      .value = &M::limited_fraction}};
 
+// Of trials of a study only: a recorded run does not contain what they need.
+constexpr MetricInfo kTrialMetrics[] = {{.key = "coil_heat_w",
+                                         .group = kCommand,
+                                         .name = "Heat of the coils",
+                                         .meaning = "mean over the run, all coils",
+                                         .unit = "W",
+                                         .compared = true,
+                                         .value = &M::coil_heat_w},
+                                        {.key = "keep_out_fraction",
+                                         .group = kPath,
+                                         .name = "Mean in a forbidden region",
+                                         .meaning = "fraction of the frames",
+                                         .unit = "%",
+                                         .shown = 100,
+                                         .compared = true,
+                                         .value = &M::keep_out_fraction},
+                                        {.key = "keep_out_cells",
+                                         .group = kPath,
+                                         .name = "Cells in a forbidden region",
+                                         .meaning = "mean fraction",
+                                         .unit = "%",
+                                         .shown = 100,
+                                         .compared = true,
+                                         .value = &M::keep_out_cells}};
+
 }  // namespace
 
 std::span<const MetricInfo> metric_list() { return kMetrics; }
 
+std::vector<const MetricInfo*> compared_metrics() {
+  std::vector<const MetricInfo*> all;
+  for (const std::span<const MetricInfo> list :
+       {std::span<const MetricInfo>(kMetrics), std::span<const MetricInfo>(kTrialMetrics)})
+    for (const MetricInfo& m : list)
+      if (m.compared) all.push_back(&m);
+  return all;
+}
+
 const MetricInfo& metric(std::string_view key) {
-  const auto at = std::find_if(std::begin(kMetrics), std::end(kMetrics),
-                               [&](const MetricInfo& m) { return m.key == key; });
-  if (at == std::end(kMetrics)) throw Error(Errc::internal, std::string(key), "unknown metric");
-  return *at;
+  for (const MetricInfo& m : kMetrics)
+    if (m.key == key) return m;
+  for (const MetricInfo& m : kTrialMetrics)
+    if (m.key == key) return m;
+  throw Error(Errc::internal, std::string(key), "unknown metric");
 }
 
 nlohmann::ordered_json metrics_json(const Metrics& m) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -25,6 +26,8 @@ struct MetricInfo {
 
 /// All scalar metrics, by group, in the order of the report.
 std::span<const MetricInfo> metric_list();
+/// The metrics that are compared in controller studies, also those of trials only.
+std::vector<const MetricInfo*> compared_metrics();
 /// The entry with this key. Throws Error(internal) when there is no such metric.
 const MetricInfo& metric(std::string_view key);
 

@@ -104,6 +104,7 @@ void measure_error(Metrics& m, Values t, Values d, std::size_t first_leg_end) {
   for (std::size_t k = 2 * d.size() / 3; k < d.size(); ++k) {
     if (std::isfinite(d[k])) {
       square += d[k] * d[k];
+      m.steady_max_px = std::max(m.steady_max_px.value_or(0), d[k]);
       ++count;
     }
   }

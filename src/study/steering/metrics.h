@@ -48,6 +48,8 @@ struct Metrics {
   std::optional<double> overshoot_percent;
   /// Root mean square of d over the last third of the frames: rows from floor(2 n / 3) to the end, px.
   std::optional<double> steady_rms_px;
+  /// Largest d in the same frames, px.
+  std::optional<double> steady_max_px;
   /// Integral of d dt by the trapezoidal rule between consecutive targeted frames, px s. Empty with fewer
   /// than two of them.
   std::optional<double> iae_px_s;
@@ -77,6 +79,11 @@ struct Metrics {
   std::optional<double> total_variation_ut;
   /// Fraction of the frames whose command was clipped by a limit, 0 to 1.
   std::optional<double> limited_fraction;
+
+  /// Only for trials of a study: mean heat of all coils over the run, W; fraction of the frames in which the
+  /// true mean of the swarm is in a region of the study that it must not enter, and mean fraction of the
+  /// cells in it, 0 to 1.
+  std::optional<double> coil_heat_w, keep_out_fraction, keep_out_cells;
 
   static constexpr std::size_t kMaxRouteSetpoints = 50;  ///< more are a moving setpoint, not a route
   /// Whether the run ended before the last setpoint of its route.

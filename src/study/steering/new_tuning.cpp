@@ -65,8 +65,7 @@ std::vector<TunedParameter> all_parameters(const Json& properties) {
 
 void check_metric(const std::string& key) {
   std::vector<std::string> known;
-  for (const MetricInfo& m : metric_list())
-    if (m.compared) known.push_back(m.key);
+  for (const MetricInfo* m : compared_metrics()) known.push_back(m->key);
   if (std::find(known.begin(), known.end(), key) == known.end())
     throw Error(Errc::usage, "--metric",
                 fmt::format("\"{}\" is not a metric of controllers{}", key, suggestion(key, known)));

@@ -88,7 +88,7 @@ std::string description_of(const std::vector<Point>& points, std::uint64_t first
 // The value of a trial that is minimised; NaN if it is undefined.
 double trial_value(const TuningStudy& study, const Scenario& s, std::size_t setpoints, std::uint64_t seed,
                    const std::function<bool()>& stop) {
-  const Metrics m = control_metrics(trial(s, seed, stop), {}, setpoints);
+  const Metrics m = measured_trial(s, seed, {setpoints}, stop).metrics;
   return (m.*metric(study.metric).value).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 

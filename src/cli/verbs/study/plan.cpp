@@ -19,11 +19,12 @@ std::string verb_of(const std::filesystem::path& study) {
   if (kind == FileKind::identify_study) return "identify";
   if (kind == FileKind::calibration_study) return "calibrate";
   if (kind == FileKind::controller_study) return "compare-controllers";
+  if (kind == FileKind::control_benchmark) return "benchmark-control";
   if (kind == FileKind::activity_study) return "activity";
   throw Error(
       Errc::usage, study.string(),
       "is not a study that can be planned; it must be a study for `faba identify`, `faba calibrate`, `faba "
-      "compare-controllers` or `faba activity`");
+      "compare-controllers`, `faba benchmark-control` or `faba activity`");
 }
 
 int study_plan(const StudyOptions& v, const Common& c) {
