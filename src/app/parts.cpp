@@ -47,6 +47,8 @@ namespace faba {
   X(controller, proportional)  \
   X(controller, lqr)           \
   X(controller, mpc)           \
+  X(controller, rotating_hold) \
+  X(controller, mixture)       \
   X(controller, gradient)      \
   X(controller, gradient_feedback)
 
