@@ -43,7 +43,7 @@ class Mixture final : public TwoSwarmController {
   std::vector<std::string> notes(std::span<const Vec2> setpoints) const override;
   void archive(Archive& a) override {
     a& rotation_& resolved_& second_target_;
-    for (Followed& f : followed_) a& f.centre& f.unseen;
+    for (Followed& f : followed_) a& f;
   }
 
  private:
@@ -52,7 +52,9 @@ class Mixture final : public TwoSwarmController {
   /// One of the two swarms, followed from frame to frame.
   struct Followed {
     Vec2 centre;        ///< of its circle, m
+    Vec2 velocity;      ///< by the last command, m/s
     double unseen = 0;  ///< s, since it was last a group of its own
+    void archive(Archive& a) { a& centre& velocity& unseen; }
   };
   using Pair = std::array<Vec2, 2>;
   /// Fields that the coils make at two positions.
@@ -70,11 +72,15 @@ class Mixture final : public TwoSwarmController {
   void follow(const std::vector<Group>& groups, Vec2 centroid, double age, double dt);
   void start(const std::vector<Group>& groups, Vec2 centroid, double age);
   void match(const std::vector<Group>& groups, double age, double dt);
-  void match_single(Vec2 position, double age, double dt);
+  void match_single(const Group& g, double age, double dt);
   Patterns patterns(const Pair& at) const;
   Pair drifts(const Pair& target, bool independent) const;
   std::vector<double> carrier() const;
-  void add_bias(const Patterns& p, const Pair& wanted, std::vector<double>& current) const;
+  Pair add_bias(const Patterns& p, const Pair& wanted, std::vector<double>& current) const;
+  void see(std::size_t swarm, Vec2 position, double age) {
+    followed_[swarm].centre = centre_of(swarm, position, age);
+    followed_[swarm].unseen = 0;
+  }
 
   Params p_;
   ControlContext c_;
@@ -90,7 +96,7 @@ class Mixture final : public TwoSwarmController {
 constexpr double kStrength = 1e-4;  // T
 // A bias of 1 % of the rotating field moves a swarm with 0.5 % of its speed.
 constexpr double kWeakest = 0.01;
-constexpr double kCoast = 1;  // s, for which a swarm that is not separate is assumed at its last position
+constexpr double kCoast = 10;  // s, for which a swarm that is not separate is predicted by the commands
 constexpr double kAmbiguous =
     0.5;  // ratio of the squared distances of an assignment to those of its exchange
 
@@ -178,13 +184,14 @@ void Mixture::start(const std::vector<Group>& groups, Vec2 centroid, double age)
   std::size_t second = first == 0 ? 1 : 0;
   for (std::size_t k = 0; k < groups.size(); ++k)
     if (k != first && groups[k].share > groups[second].share) second = k;
-  followed_[0] = {centre_of(0, groups[first].centroid, age)};
-  followed_[1] = {centre_of(1, groups[second].centroid, age)};
+  see(0, groups[first].centroid, age);
+  see(1, groups[second].centroid, age);
   if (!p_.second_px) second_target_ = followed_[1].centre;
   resolved_ = true;
 }
 
-// Nearest assignment. Near a crossing two assignments are similar, and the swarms keep their positions.
+// Nearest assignment to the predicted centres; near a crossing both assignments are similar, and the swarms
+// keep the predictions.
 void Mixture::match(const std::vector<Group>& groups, double age, double dt) {
   const auto cost = [&](std::size_t a, std::size_t b) {
     const Vec2 first = centre_of(0, groups[a].centroid, age) - followed_[0].centre;
@@ -203,33 +210,37 @@ void Mixture::match(const std::vector<Group>& groups, double age, double dt) {
     for (Followed& f : followed_) f.unseen += dt;
     return;
   }
-  followed_[0] = {centre_of(0, groups[first].centroid, age)};
-  followed_[1] = {centre_of(1, groups[second].centroid, age)};
+  see(0, groups[first].centroid, age);
+  see(1, groups[second].centroid, age);
 }
 
-// A single group is one of the swarms if it is clearly nearer to it, else both.
-void Mixture::match_single(Vec2 position, double age, double dt) {
-  Pair centre;
-  std::array<double, 2> distance{};
+// A single group is the nearer swarm if the other is outside of it, else both.
+void Mixture::match_single(const Group& g, double age, double dt) {
+  constexpr double kOutside = 3;  // standard deviations
+  const double size = kOutside * kOutside * std::max(g.cov.xx, g.cov.yy);
+  std::array<double, 2> square{};
   for (std::size_t i = 0; i < 2; ++i) {
-    centre[i] = centre_of(i, position, age);
-    distance[i] = norm(centre[i] - followed_[i].centre);
+    const Vec2 from = centre_of(i, g.centroid, age) - followed_[i].centre;
+    square[i] = dot(from, from);
   }
   for (std::size_t i = 0; i < 2; ++i) {
-    if (distance[i] <= kAmbiguous * distance[1 - i])
-      followed_[i] = {centre[i]};
-    else if ((followed_[i].unseen += dt) >= kCoast)
-      followed_[i].centre = centre[i];
+    const bool alone = square[1 - i] > size && square[i] <= kAmbiguous * square[1 - i];
+    followed_[i].unseen += dt;
+    if (alone)
+      see(i, g.centroid, age);
+    else if (followed_[i].unseen >= kCoast)
+      followed_[i].centre = centre_of(i, g.centroid, age);
   }
 }
 
 void Mixture::follow(const std::vector<Group>& groups, Vec2 centroid, double age, double dt) {
+  const Group first = groups.empty() ? Group{centroid, 1, {}} : groups[0];
+  for (Followed& f : followed_) f.centre = f.centre + dt * f.velocity;
   if (groups.size() < 2 && !resolved_) {
-    for (std::size_t i = 0; i < 2; ++i)
-      followed_[i] = {centre_of(i, groups.empty() ? centroid : groups[0].centroid, age)};
+    for (std::size_t i = 0; i < 2; ++i) see(i, first.centroid, age);
     if (!p_.second_px) second_target_ = followed_[1].centre;
   } else if (groups.size() < 2) {
-    match_single(groups.empty() ? centroid : groups[0].centroid, age, dt);
+    match_single(first, age, dt);
   } else if (!resolved_) {
     start(groups, centroid, age);
   } else {
@@ -282,14 +293,15 @@ std::vector<double> Mixture::carrier() const {
   return allocate(*c_.field, {middle.x, middle.y, 0}, double(c_.polarity) * rotation_.field() - ambient());
 }
 
-void Mixture::add_bias(const Patterns& p, const Pair& wanted, std::vector<double>& current) const {
+// Returns the bias that is made at both swarms, T.
+Mixture::Pair Mixture::add_bias(const Patterns& p, const Pair& wanted, std::vector<double>& current) const {
   Vec4 b;
   b << weight_[0] * wanted[0].x, weight_[0] * wanted[0].y, weight_[1] * wanted[1].x, weight_[1] * wanted[1].y;
   Vec4 solved = Vec4::Zero();
   for (int j = 4 - p.used; j < 4; ++j)
     solved += (p.directions.col(j).dot(b) / p.squares[j]) * p.directions.col(j);
   const Eigen::VectorXd relative = p.by_current.transpose() * solved;
-  if (!relative.allFinite()) return;
+  if (!relative.allFinite()) return {};
   double scale = 1;
   for (std::size_t k = 0; k < current.size(); ++k) {
     const double added = spare_[k] * relative[Eigen::Index(k)];
@@ -299,6 +311,12 @@ void Mixture::add_bias(const Patterns& p, const Pair& wanted, std::vector<double
   }
   for (std::size_t k = 0; k < current.size(); ++k)
     current[k] += scale * spare_[k] * relative[Eigen::Index(k)];
+  const Vec4 made = scale * p.by_current * relative;
+  Pair field;
+  for (std::size_t i = 0; i < 2; ++i)
+    if (weight_[i] > 0)
+      field[i] = (1 / weight_[i]) * Vec2{made[2 * Eigen::Index(i)], made[2 * Eigen::Index(i) + 1]};
+  return field;
 }
 
 Command Mixture::update(const Estimate& e, const Target& target, double dt) {
@@ -316,32 +334,37 @@ Command Mixture::update(const Estimate& e, const Target& target, double dt) {
   for (std::size_t i = 0; i < 2; ++i)
     wanted[i] = (c_.polarity * sign_[i]) * swarms_[i].bias(drift[i], rotation_);
   std::vector<double> current = carrier();
-  add_bias(p, wanted, current);
+  const Pair made = add_bias(p, wanted, current);
+  for (std::size_t i = 0; i < 2; ++i)
+    followed_[i].velocity = swarms_[i].drift_by((c_.polarity * sign_[i]) * made[i], rotation_);
   return {current};
 }
 
 std::vector<std::string> Mixture::notes(std::span<const Vec2> setpoints) const {
-  if (!c_.field->varies())
-    return {fmt::format(
+  std::vector<std::string> notes;
+  if (!c_.field->varies()) {
+    notes.push_back(fmt::format(
         "the field is the same at both swarms and cannot steer them independently: v2 p1 {} v1 p2 of their "
-        "mean positions p1 and p2 stays constant, with the speeds v1 = {:.3g} um/s and v2 = {:.3g} um/s; "
-        "the controller moves them to where the sum of the squared distances from the setpoints is "
-        "smallest; use coils in at least four directions, as in rigs/eight-coils.toml",
-        sign_[1] > 0 ? "-" : "+", swarms_[0].speed() * 1e6, swarms_[1].speed() * 1e6)};
-  if (!p_.second_px) return {};
+        "mean positions p1 and p2 stays constant, with v1 = {:.3g} um/s and v2 = {:.3g} um/s; the "
+        "controller moves them to where the sum of the squared distances from the setpoints is smallest; "
+        "use coils in at least four directions, as in rigs/eight-coils.toml",
+        sign_[1] > 0 ? "-" : "+", swarms_[0].speed() * 1e6, swarms_[1].speed() * 1e6));
+    return notes;
+  }
+  if (!p_.second_px) return notes;
   for (const Vec2 at : setpoints) {
     const int used = patterns({at, second_target_}).used;
     if (used == 4) continue;
     const Vec2 first = c_.frame.image_from_world(at);
-    return {fmt::format(
-        "with the swarms at ({:.0f}, {:.0f}) px and ({:g}, {:g}) px, the coils make only {} of the 4 "
-        "components of the fields at both with at least 1 % of the rotating field; along the others the "
-        "controller moves both swarms to where the sum of the squared distances from the setpoints is "
-        "smallest; choose setpoints that are further apart, or coils in more directions, as in "
-        "rigs/eight-coils.toml",
-        first.x, first.y, p_.second_px->x, p_.second_px->y, used)};
+    notes.push_back(fmt::format(
+        "with the swarms at ({:.0f}, {:.0f}) px and ({:.0f}, {:.0f}) px the coils make only {} of the 4 "
+        "components of both fields with at least 1 % of the rotating field; along the others the sum of the "
+        "squared distances from the setpoints becomes as small as possible; choose setpoints that are "
+        "further apart, or coils in more directions, as in rigs/eight-coils.toml",
+        first.x, first.y, p_.second_px->x, p_.second_px->y, used));
+    break;
   }
-  return {};
+  return notes;
 }
 
 }  // namespace

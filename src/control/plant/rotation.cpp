@@ -179,4 +179,9 @@ Vec2 CirclingSwarm::bias(Vec2 drift, const Rotation& r) const {
   return per_drift * Vec2{cosine_ * drift.x + sine_ * drift.y, cosine_ * drift.y - sine_ * drift.x};
 }
 
+Vec2 CirclingSwarm::drift_by(Vec2 bias, const Rotation& r) const {
+  const double by_bias = mobility() / r.effective();
+  return by_bias * Vec2{cosine_ * bias.x - sine_ * bias.y, cosine_ * bias.y + sine_ * bias.x};
+}
+
 }  // namespace faba

@@ -60,6 +60,8 @@ class CirclingSwarm {
   Vec2 drift(Vec2 error) const;
   /// The constant field times the polarity for a drift, T.
   Vec2 bias(Vec2 drift, const Rotation& r) const;
+  /// The drift by a constant field, T: the inverse of bias().
+  Vec2 drift_by(Vec2 bias, const Rotation& r) const;
 
  private:
   double speed_, efficiency_;
