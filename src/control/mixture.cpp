@@ -25,9 +25,11 @@ namespace {
 /// distance.
 class Mixture final : public TwoSwarmController {
  public:
+  enum class First { majority, north, south };
   enum class Polarity { opposite, same };
   struct Params {
     std::optional<Vec2> second_px, near_px;
+    First first_polarity = First::majority;
     Polarity second_polarity = Polarity::opposite;
     std::optional<double> second_speed, second_turning, second_mobility;
     RotationParams rotation;
@@ -122,6 +124,11 @@ Schema<Mixture::Params> Mixture::schema() {
             .max = 1e5,
             .doc = "Initial position of the first swarm in image coordinates; default: that of the estimate",
             .title = "Initial position of the first swarm"})
+      .add("first_polarity", &Params::first_polarity,
+           {.doc = "Polarity of the first swarm; majority: that of most cells, south if there are as many of "
+                   "both",
+            .choices = {"majority", "north", "south"},
+            .title = "Polarity of the first swarm"})
       .add("second_polarity", &Params::second_polarity,
            {.doc = "Polarity of the second swarm, relative to the first",
             .choices = {"opposite", "same"},
@@ -160,6 +167,7 @@ Mixture::Mixture(const Params& p, const ControlContext& c)
       swarms_{CirclingSwarm(p.motion.of(c.motion), rotation_, p.rotation.gain, c),
               CirclingSwarm(second_motion(p, p.motion.of(c.motion)), rotation_, p.rotation.gain, c)},
       sign_{1, p.second_polarity == Polarity::same ? 1.0 : -1.0} {
+  if (p.first_polarity != First::majority) c_.polarity = p.first_polarity == First::north ? 1 : -1;
   const double first = swarms_[0].mobility(), second = swarms_[1].mobility();
   const double mean = std::sqrt((first * first + second * second) / 2);
   weight_ = mean > 0 ? std::array{first / mean, second / mean} : std::array{1.0, 1.0};

@@ -8,7 +8,7 @@ namespace faba {
 
 /// Parameters of a rotating field.
 struct RotationParams {
-  std::optional<double> rotating, frequency;
+  std::optional<double> rotating = {}, frequency = {};
   double gain = 0.45;
   static Schema<RotationParams> schema();
 };

@@ -93,6 +93,7 @@ export const control: Record<string, string> = {
   'Two swarms of different polarity or speed, steered to a setpoint each': 'Dois enxames de polaridade ou velocidade diferente, cada um conduzido ao seu ponto de referência',
   'Setpoint of the second swarm in image coordinates, y down; the reference gives that of the first; default: where the second swarm is first seen': 'Ponto de referência do segundo enxame em coordenadas de imagem, y para baixo; a referência dá o do primeiro; padrão: onde o segundo enxame é visto pela primeira vez',
   'Initial position of the first swarm in image coordinates; default: that of the estimate': 'Posição inicial do primeiro enxame em coordenadas de imagem; padrão: a da estimativa',
+  'Polarity of the first swarm; majority: that of most cells, south if there are as many of both': 'Polaridade do primeiro enxame; majority: a da maioria das células, sul se há tantas de ambas',
   'Polarity of the second swarm, relative to the first': 'Polaridade do segundo enxame, em relação ao primeiro',
   'Swimming speed of the second swarm; default: that of the first': 'Velocidade de nado do segundo enxame; padrão: a do primeiro',
   'Turning rate of the second swarm, per tesla; default: that of the first': 'Taxa de giro do segundo enxame, por tesla; padrão: a do primeiro',
