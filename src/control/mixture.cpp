@@ -95,7 +95,7 @@ class Mixture final : public TwoSwarmController {
   std::array<Followed, 2> followed_;
 };
 
-constexpr double kStrength = 1e-4;  // T
+constexpr double kStrength = 3e-4;  // T
 // A bias of 1 % of the rotating field moves a swarm with 0.5 % of its speed.
 constexpr double kWeakest = 0.01;
 constexpr double kCoast = 10;  // s, for which a swarm that is not separate is predicted by the commands

@@ -136,9 +136,11 @@ TEST_CASE("mixture: a note states when the field cannot steer both, and what is 
   const std::string same = notes({.controller = "second_polarity = 'same'\nsecond_speed = '93 um/s'"});
   CHECK(same.find("v2 p1 - v1 p2") != std::string::npos);
   // Four coils on the axes have no gradient across an axis: displaced along x, the swarms differ only in x.
-  const std::string axis = notes({.field = kFour, .controller = "second_px = [450, 230]"});
+  const std::string axis =
+      notes({.field = kFour, .controller = "second_px = [450, 230]\nrotating = '0.1 mT'"});
   CHECK(axis.find("make only 3 of the 4 components") != std::string::npos);
-  const std::string diagonal = notes({.field = kFour, .controller = "second_px = [450, 430]"});
+  const std::string diagonal =
+      notes({.field = kFour, .controller = "second_px = [450, 430]\nrotating = '0.1 mT'"});
   CHECK(diagonal.find("controller:") == std::string::npos);
   const std::string one = notes({.field = kEight, .estimator = "'visible'"});
   CHECK(one.find("it steers two swarms, but estimator \"visible\" does not separate them") !=

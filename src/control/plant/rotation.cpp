@@ -98,7 +98,7 @@ Schema<RotationParams> RotationParams::schema() {
            {.unit = "T",
             .min = 1e-7,
             .max = 0.1,
-            .doc = "Magnitude of the rotating field; default: 1 mT (rotating_hold) or 0.1 mT (mixture), 5 "
+            .doc = "Magnitude of the rotating field; default: 1 mT (rotating_hold) or 0.3 mT (mixture), 5 "
                    "field units for cells whose drift is proportional to the field, or less if the coils "
                    "cannot make it",
             .title = "Rotating field"})
