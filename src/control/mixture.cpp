@@ -95,7 +95,7 @@ class Mixture final : public TwoSwarmController {
   std::array<Followed, 2> followed_;
 };
 
-constexpr double kStrength = 3e-4;  // T
+constexpr double kMixtureStrength = 3e-4;  // T
 // A bias of 1 % of the rotating field moves a swarm with 0.5 % of its speed.
 constexpr double kWeakest = 0.01;
 constexpr double kCoast = 10;  // s, for which a swarm that is not separate is predicted by the commands
@@ -163,7 +163,7 @@ Schema<Mixture::Params> Mixture::schema() {
 Mixture::Mixture(const Params& p, const ControlContext& c)
     : p_(p),
       c_(c),
-      rotation_(p.rotation, kStrength, p.motion.of(c.motion), c),
+      rotation_(p.rotation, kMixtureStrength, p.motion.of(c.motion), c),
       swarms_{CirclingSwarm(p.motion.of(c.motion), rotation_, p.rotation.gain, c),
               CirclingSwarm(second_motion(p, p.motion.of(c.motion)), rotation_, p.rotation.gain, c)},
       sign_{1, p.second_polarity == Polarity::same ? 1.0 : -1.0} {

@@ -33,7 +33,7 @@ class RotatingHold final : public Controller {
   double delay_;  ///< s, of an estimate that is not predicted
 };
 
-constexpr double kStrength = 1e-3;  // T
+constexpr double kHoldStrength = 1e-3;  // T
 
 Schema<RotatingHold::Params> RotatingHold::schema() {
   return Schema<Params>("rotating_hold", "A rotating field holds the swarm, and a weak bias moves it slowly")
@@ -45,7 +45,7 @@ Schema<RotatingHold::Params> RotatingHold::schema() {
 }
 
 RotatingHold::RotatingHold(const Params& p, const ControlContext& c)
-    : rotation_(p.rotation, kStrength, p.motion.of(c.motion), c),
+    : rotation_(p.rotation, kHoldStrength, p.motion.of(c.motion), c),
       swarm_(p.motion.of(c.motion), rotation_, p.rotation.gain, c),
       steering_(p.motion, (1 + Rotation::kLargestBias) * rotation_.strength() / c.scale.field_unit, c),
       delay_(c.delay_frames * c.frame_period) {}

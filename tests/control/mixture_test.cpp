@@ -75,6 +75,7 @@ std::string notes(const Setup& s) {
 
 TEST_CASE("mixture: two swarms of opposite polarity reach their two setpoints between eight coils") {
   // In a uniform field p1 + p2 would be constant; the setpoints need a change by (30, 90) px.
+  constexpr double kBand = 10;  // px, the settling band of theory F5
   int reached = 0;
   double worst = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
@@ -82,10 +83,10 @@ TEST_CASE("mixture: two swarms of opposite polarity reach their two setpoints be
     const Pair end = after(t, 60 * 30, 64);
     const double first = norm(end[0] - Vec2{250, 230}), second = norm(end[1] - Vec2{400, 340});
     MESSAGE("seed ", seed, ": ", first, " px, ", second, " px");
-    if (first < 5 && second < 5) ++reached;
+    if (first < kBand && second < kBand) ++reached;
     worst = std::max({worst, first, second});
   }
-  MESSAGE(reached, " of 10 reach both setpoints within 5 px; largest distance ", worst, " px");
+  MESSAGE(reached, " of 10 reach both setpoints within 10 px; largest distance ", worst, " px");
   CHECK(reached >= 9);
 }
 

@@ -15,9 +15,9 @@ namespace {
 using Response = SwarmMotion::Response;
 using portable::kPi;
 
-constexpr double kUsualFrequency = 5;  // Hz
+constexpr double kDefaultFrequency = 5;  // Hz
 // The default leaves room for cells that turn at half the rate of a typical one.
-constexpr double kUsualStepOut = 0.5;
+constexpr double kDefaultStepOut = 0.5;
 constexpr double kMostStepOut = 0.9;  // of w_B; the bias must not break the lock
 constexpr double kFramesPerTurn =
     8;  // with 8, the first harmonic of the held field is 0.974 of its magnitude
@@ -45,7 +45,7 @@ double reach(const ControlContext& c) {
   return most;
 }
 
-double checked_strength(const RotationParams& p, double usual, const ControlContext& c) {
+double checked_strength(const RotationParams& p, double preset, const ControlContext& c) {
   const Vec3 ambient = c.field->ambient();
   const double all = reach(c);
   const double most = std::max(0.0, all - norm(Vec2{ambient.x, ambient.y})) / (1 + Rotation::kLargestBias);
@@ -59,7 +59,7 @@ double checked_strength(const RotationParams& p, double usual, const ControlCont
                             "leaves current for the bias and the ambient field; reduce it, or increase "
                             "limits.max_current and max_current of the coils",
                             *p.rotating * 1e3, most * 1e3));
-  return p.rotating.value_or(std::min(usual, most));
+  return p.rotating.value_or(std::min(preset, most));
 }
 
 /// The largest frequency at which cells stay locked, Hz; infinity if they follow at once.
@@ -73,7 +73,7 @@ double checked_frequency(const RotationParams& p, const SwarmMotion& m, double s
   if (!(locked > 0))
     throw Error(Errc::usage, "controller.turning",
                 "is 0: the cells do not turn in a field; specify the turning rate of the cells");
-  if (!p.frequency) return std::min({kUsualFrequency, kUsualStepOut * locked, shown});
+  if (!p.frequency) return std::min({kDefaultFrequency, kDefaultStepOut * locked, shown});
   const double most = kMostStepOut * locked, wanted = std::fabs(*p.frequency);
   if (wanted > most)
     throw Error(Errc::usage, "controller.frequency",
