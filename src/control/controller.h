@@ -14,6 +14,7 @@
 namespace faba {
 
 class FieldLibrary;
+struct LqrDesign;
 
 /// Estimates the state of the swarm from observations.
 class Estimator {
@@ -52,6 +53,8 @@ class Controller {
   virtual double max_field() const { return std::numeric_limits<double>::infinity(); }
   /// The sets of coil currents that its parameters give directly, A; one current per coil.
   virtual std::vector<std::vector<double>> given_currents() const { return {}; }
+  /// The linear design of its gains, for one axis; null if it has none.
+  virtual const LqrDesign* design() const { return nullptr; }
 };
 
 /// World frame, m.

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "app/scenario/scenario.h"
-#include "control/plant/motion_model.h"
 #include "control/plan/obstacles.h"
+#include "control/plant/motion_model.h"
 #include "tests/reference_rig.h"
 
 using namespace faba;
