@@ -256,8 +256,8 @@ void note_two_swarms(const Scenario& s, const Simulation& simulation, const TwoS
     notes.push_back(fmt::format("controller: {}", text));
   if (s.estimator.has(Trait::needs_positions) || s.estimator.has(Trait::needs_pictures))
     notes.push_back(
-        fmt::format("controller: it steers two swarms, but estimator \"{}\" does not separate them; set "
-                    "estimator.type = \"groups\"",
+        fmt::format("controller: it steers two swarms, but estimator \"{}\" does not separate them; use "
+                    "the estimator of groups",
                     s.estimator.type));
 }
 

@@ -99,7 +99,7 @@ export const scenario: Record<string, string> = {
   'must be an array of tables; write [[swarm]] for each kind of cells': 'deve ser uma lista de tabelas; escreva [[swarm]] para cada tipo de célula',
   '{} cells in total; the maximum is 5e7': '{} células no total; o máximo é 5e7',
   // control
-  'controller: it steers two swarms, but estimator "{}" does not separate them; set estimator.type = "groups"': 'controlador: ele conduz dois enxames, mas o estimador "{}" não os separa; defina estimator.type = "groups"',
+  'controller: it steers two swarms, but estimator "{}" does not separate them; use the estimator of groups': 'controlador: ele conduz dois enxames, mas o estimador "{}" não os separa; use o estimador de grupos',
   'controller: {}': 'controlador: {}',
   'frequency is 0 Hz; a rotating field needs a positive or a negative frequency, such as "5 Hz"': 'frequency é 0 Hz; um campo girante precisa de uma frequência positiva ou negativa, como "5 Hz"',
   'is 0: the cells do not turn in a field; specify the turning rate of the cells': 'é 0: as células não giram em um campo; especifique a taxa de giro das células',
