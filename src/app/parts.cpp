@@ -49,6 +49,8 @@ namespace faba {
   X(controller, lqr)           \
   X(controller, mpc)           \
   X(controller, compact)       \
+  X(controller, rotating_hold) \
+  X(controller, mixture)       \
   X(controller, gradient)      \
   X(controller, gradient_feedback)
 

@@ -36,6 +36,7 @@ ControlContext context_for(const std::string& field) {
   c.frame_period = kFrame;
   c.delay_frames = 1;
   c.max_current = c.field->max_currents(2);
+  c.motion = {.speed = 186e-6, .turning = 1.3e5, .diffusion = 0.54};
   FieldLibrary::Content library;
   library.grid = {{-1e-3, -1e-3}, 1e-3, 3, 3};
   for (const double x : {-1e-4, 3e-4})
@@ -132,14 +133,16 @@ Findings faults_of_controller(const ControllerPart& part, const ControlContext& 
   return found;
 }
 
-/// The part with its defaults, and with each permitted choice and range end.
-std::vector<ControllerPart> variants(const std::string& name) {
+/// The part with its defaults, and with each choice and range end that is permitted with this context.
+std::vector<ControllerPart> variants(const std::string& name, const ControlContext& context) {
   const auto& registry = contract::parts().controller;
   std::vector<ControllerPart> all{contract::resolved(registry, name)};
   const auto add = [&](const std::string& key, const Json& value) {
     try {
-      all.push_back(contract::resolved(registry, Json{{"type", name}, {key, value}}));
-    } catch (const Error&) {  // rules over several keys; listed in ranges_test.cpp
+      const ControllerPart part = contract::resolved(registry, Json{{"type", name}, {key, value}});
+      part.make(context);
+      all.push_back(part);
+    } catch (const Error&) {  // rules over several keys, listed in ranges_test.cpp, or over the context
     }
   };
   for (const auto& [key, field] : registry.json_schema(name)["properties"].items()) {
@@ -197,7 +200,7 @@ TEST_CASE("every controller: one finite current for each coil; no current for un
   for (const std::string field : {"uniform", "rig"}) {
     const ControlContext context = context_for(field);
     for (const auto& name : contract::parts().controller.names())
-      for (const ControllerPart& part : variants(name)) {
+      for (const ControllerPart& part : variants(name, context)) {
         INFO(field, ": ", part.resolved.dump());
         CHECK_NO_FINDINGS(faults_of_controller(part, context));
       }
@@ -207,7 +210,7 @@ TEST_CASE("every controller: one finite current for each coil; no current for un
 TEST_CASE("no controller commands a field above its max_field()") {
   const ControlContext context = context_for("uniform");
   for (const auto& name : contract::parts().controller.names())
-    for (const ControllerPart& part : variants(name)) {
+    for (const ControllerPart& part : variants(name, context)) {
       INFO(part.resolved.dump());
       for (const Hostile& h : hostile_inputs()) {
         Started started(part, context);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "control/two_swarms.h"
 #include "core/counted.h"
 #include "field/null.h"
 
@@ -248,6 +249,18 @@ void note_parts(const Scenario& s, Notes& notes) {
   }
 }
 
+// Two swarms that the field cannot steer independently, or that the estimator does not separate.
+void note_two_swarms(const Scenario& s, const Simulation& simulation, const TwoSwarmController& controller,
+                     Notes& notes) {
+  for (const std::string& text : controller.notes(simulation.reference().setpoints()))
+    notes.push_back(fmt::format("controller: {}", text));
+  if (s.estimator.has(Trait::needs_positions) || s.estimator.has(Trait::needs_pictures))
+    notes.push_back(
+        fmt::format("controller: it steers two swarms, but estimator \"{}\" does not separate them; use "
+                    "the estimator of groups",
+                    s.estimator.type));
+}
+
 void note_without_effect(const Scenario& s, const Simulation& simulation, Notes& notes) {
   if (s.limits.max_current == 0)
     notes.emplace_back("limits.max_current is 0: there is no current in the coils");
@@ -353,7 +366,10 @@ std::vector<std::string> scenario_notes(const Scenario& s, const Simulation& sim
   note_view(simulation, notes);
   if (s.steers()) {
     note_setpoints(s, simulation, notes);
-    note_polarities(s, notes);
+    if (const auto* two = dynamic_cast<const TwoSwarmController*>(&simulation.controller()))
+      note_two_swarms(s, simulation, *two, notes);
+    else
+      note_polarities(s, notes);
   }
   if (s.controller.has(Trait::seeks_null)) note_traps(s, simulation, notes);
   if (const auto& table = simulation.world().parts().table; table && table->error() > FieldTable::kTolerance)

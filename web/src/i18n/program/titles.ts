@@ -17,6 +17,9 @@ export const titles: Record<string, string> = {
   // Controllers and estimators
   Gain: 'Ganho', 'Integral gain': 'Ganho integral', 'Integral time': 'Tempo integral', 'Max output': 'Comando máximo', 'Dead zone': 'Zona morta', 'Delay frames': 'Atraso em quadros', 'Frames per cell velocity': 'Quadros por velocidade de célula',
   'Swimming speed of the plant': 'Velocidade de nado da planta', 'Turning rate of the plant': 'Taxa de giro da planta', 'Rotational diffusion of the plant': 'Difusão rotacional da planta', 'Drift per tesla of the plant': 'Deriva por tesla da planta',
+  'Rotating field': 'Campo girante', 'Loop gain': 'Ganho da malha', 'Setpoint of the second swarm': 'Ponto de referência do segundo enxame', 'Polarity of the first swarm': 'Polaridade do primeiro enxame', 'Initial position of the first swarm': 'Posição inicial do primeiro enxame',
+  'Polarity of the second swarm': 'Polaridade do segundo enxame', 'Speed of the second swarm': 'Velocidade do segundo enxame', 'Turning rate of the second swarm': 'Taxa de giro do segundo enxame',
+  'Drift per tesla of the second swarm': 'Deriva por tesla do segundo enxame',
   'Time without cells': 'Tempo sem células', 'Error of a position': 'Erro de uma posição', 'Distance worth the full command': 'Distância que vale o comando total', 'Velocity weight': 'Peso da velocidade', 'Frames per move': 'Quadros por movimento', Moves: 'Movimentos', Change: 'Mudança',
   'Distance from edges': 'Distância das bordas', 'Distance from obstacles': 'Distância dos obstáculos', Obstacles: 'Obstáculos', 'Heat of the coils': 'Calor das bobinas', Corners: 'Vértices',
   Actuation: 'Atuação', 'Prediction time': 'Tempo de predição', 'Near distance': 'Distância próxima', 'Far distance': 'Distância distante', 'Fuzzy states': 'Estados fuzzy', 'Direction of the command': 'Direção do comando', Current: 'Corrente',

@@ -1,0 +1,66 @@
+#include <cmath>
+
+#include "control/plant/motion_model.h"
+#include "control/plant/rotation.h"
+#include "control/plant/steering.h"
+
+namespace faba {
+namespace {
+
+/// Holds a swarm by a rotating field and moves it slowly by a constant bias (theory F3, B3.6 to B3.8). Cells
+/// swim in circles of radius v / Omega; with phi* = arcsin(Omega / w_B) the centres drift by
+///   u = (v / 2) B_dc / B_rot, turned by phi*,   u = sat(k (setpoint - centre)),  |B_dc| <= 0.3 B_rot.
+/// The centre is the centroid less the circle of the known headings. Unlike a mean over a revolution this
+/// has no delay; an error of it rotates with the field, and changes its magnitude instead of the drift.
+/// Assumed: all cells are locked to the field. The ambient field is compensated.
+class RotatingHold final : public Controller {
+ public:
+  struct Params {
+    RotationParams rotation;
+    MotionParams motion;
+  };
+  static constexpr std::array kTraits = {Trait::feedback};
+  static Schema<Params> schema();
+  RotatingHold(const Params& p, const ControlContext& c);
+  Command update(const Estimate& e, const Target& target, double dt) override;
+  double max_field() const override { return steering_.max_field(); }
+  void archive(Archive& a) override { a& rotation_; }
+
+ private:
+  Rotation rotation_;
+  CirclingSwarm swarm_;
+  Steering steering_;
+  double delay_;  ///< s, of an estimate that is not predicted
+};
+
+constexpr double kHoldStrength = 1e-3;  // T
+
+Schema<RotatingHold::Params> RotatingHold::schema() {
+  return Schema<Params>("rotating_hold", "A rotating field holds the swarm, and a weak bias moves it slowly")
+      .include(&Params::rotation, RotationParams::schema())
+      .include(&Params::motion, MotionParams::schema())
+      .validity(
+          "The swarm moves with at most 15 % of its swimming speed. Cells that turn too slowly for the "
+          "frequency are not held. The field holds the cells where they are and does not gather them.");
+}
+
+RotatingHold::RotatingHold(const Params& p, const ControlContext& c)
+    : rotation_(p.rotation, kHoldStrength, p.motion.of(c.motion), c),
+      swarm_(p.motion.of(c.motion), rotation_, p.rotation.gain, c),
+      steering_(p.motion, (1 + Rotation::kLargestBias) * rotation_.strength() / c.scale.field_unit, c),
+      delay_(c.delay_frames * c.frame_period) {}
+
+Command RotatingHold::update(const Estimate& e, const Target& target, double dt) {
+  if (!(e.visible > 0) || !std::isfinite(norm(e.centroid))) return steering_.none();
+  rotation_.advance(dt);
+  const Vec2 error = target.position - swarm_.centre(e.centroid, e.predicted ? 0 : delay_, 1, rotation_);
+  const Vec2 drift = std::isfinite(norm(error)) ? swarm_.drift(error) : Vec2{};
+  return steering_.linear(e.centroid,
+                          (1 / steering_.strongest()) * (rotation_.field() + swarm_.bias(drift, rotation_)));
+}
+
+}  // namespace
+
+void add_rotating_hold(ControllerRegistry& r) { r.add<RotatingHold>(); }
+
+}  // namespace faba
