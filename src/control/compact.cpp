@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "control/plant/linear_design.h"
+#include "control/plant/rotation.h"
 #include "control/plant/steering.h"
 #include "control/trap.h"
 #include "core/portable_math.h"
@@ -10,14 +10,16 @@
 namespace faba {
 namespace {
 
+constexpr double kHoldStrength = 1e-3;  // T
+
 /// Mean and variance (theory F3): gathers the swarm until its RMS radius is below `compact_px`, then moves it
 /// to the setpoint, and gathers it again when the radius exceeds `spread_px`.
 /// - Gathering at the edge: a uniform field in one direction; the cells slide along the edge to the point
-/// that lies in
-///   this direction. In a trap: a zero of the field at the swarm.
-/// - Transport by the field: the regulator `lqr` on the mean. By the trap: the zero moves to the setpoint,
-/// and waits while
-///   the swarm is wider than `spread_px`.
+/// that
+///   lies in this direction. In a trap: a zero of the field in the middle of the drop.
+/// - Transport by the field: the cells swim straight to the setpoint and are held there by a rotating field,
+///   because they would disperse in a weak field (F1). By the trap: the zero moves to the setpoint, and waits
+///   while the swarm is wider than `spread_px`.
 class Compact final : public Controller {
  public:
   enum class Gathering { edge, trap };
@@ -30,7 +32,7 @@ class Compact final : public Controller {
     std::optional<double> direction;
     double speed_fraction = 0.2;
     double max_output = 5;
-    double error_px = 2;
+    RotationParams rotation;
     MotionParams motion;
   };
   static constexpr std::array kTraits = {Trait::feedback};
@@ -39,22 +41,25 @@ class Compact final : public Controller {
   Command update(const Estimate& e, const Target& target, double dt) override;
   double max_field() const override;
   void archive(Archive& a) override {
-    a& steering_& transporting_& started_& along_& zero_& smallest_& waited_;
+    a& steering_& transporting_& holding_& started_& along_& zero_& smallest_& waited_;
     trap_.archive(a);
+    if (rotation_) a&* rotation_;
   }
 
  private:
   void begin_gathering(const Estimate& e, Vec2 target);
   bool gathered(double radius, double dt);
+  Command swim(const Estimate& e, Vec2 target, double dt);
   Command transport(const Estimate& e, Vec2 target, double radius, double dt);
   Vec2 edge_towards(Vec2 target, Vec2 swarm) const;
 
   Params p_;
   ControlContext c_;
   Steering steering_;
-  LqrDesign design_;
+  std::optional<Rotation> rotation_;  ///< of the hold, with a transport by the field
+  std::optional<CirclingSwarm> circling_;
   Trap trap_;
-  bool transporting_ = false, started_ = false;
+  bool transporting_ = false, holding_ = false, started_ = false;
   Vec2 along_;           ///< direction of the edge at which the swarm is gathered
   Vec2 zero_;            ///< m, where the zero of the field is
   double smallest_ = 0;  ///< m, RMS radius since the gathering began
@@ -105,14 +110,7 @@ Schema<Compact::Params> Compact::schema() {
             .source = "assumed"})
       .add("max_output", &Params::max_output,
            {.min = 1e-3, .max = 1000, .doc = "Largest command in field units", .source = "thesis: 5"})
-      .add("error_px", &Params::error_px,
-           {.unit = "px",
-            .min = 1e-3,
-            .max = 1e5,
-            .doc =
-                "Distance from the setpoint that is worth the largest command, in the transport by the field",
-            .source = "assumed",
-            .title = "Distance worth the full command"})
+      .include(&Params::rotation, RotationParams::schema())
       .include(&Params::motion, MotionParams::schema())
       .check([](const Params& p) -> std::string {
         return p.spread_px <= p.compact_px ? "spread_px must be larger than compact_px" : "";
@@ -124,16 +122,18 @@ Schema<Compact::Params> Compact::schema() {
 }
 
 Compact::Compact(const Params& p, const ControlContext& c)
-    : p_(p),
-      c_(c),
-      steering_(p.motion, p.max_output, c),
-      design_(lqr_design(linear_plant(steering_.plant(), steering_.strongest()), c.frame_period,
-                         {p.error_px * c.scale.m_per_px, {}, {}})),
-      trap_({}, c) {}
+    : p_(p), c_(c), steering_(p.motion, p.max_output, c), trap_({}, c) {
+  if (p.transport != Transport::field) return;
+  const SwarmMotion motion = p.motion.of(c.motion);
+  rotation_.emplace(p.rotation, kHoldStrength, motion, c);
+  circling_.emplace(motion, *rotation_, p.rotation.gain, c);
+}
 
 double Compact::max_field() const {
-  const bool traps = p_.gather == Gathering::trap || p_.transport == Transport::trap;
-  return traps ? std::numeric_limits<double>::infinity() : steering_.max_field();
+  if (p_.gather == Gathering::trap || p_.transport == Transport::trap)
+    return std::numeric_limits<double>::infinity();
+  const double holding = (1 + Rotation::kLargestBias) * rotation_->strength();
+  return steering_.max_field() + std::max(0.0, holding - steering_.strongest());
 }
 
 Vec2 Compact::edge_towards(Vec2 target, Vec2 swarm) const {
@@ -151,6 +151,7 @@ Vec2 Compact::edge_towards(Vec2 target, Vec2 swarm) const {
 
 void Compact::begin_gathering(const Estimate& e, Vec2 target) {
   transporting_ = false;
+  holding_ = false;
   started_ = true;
   along_ = edge_towards(target, e.centroid);
   // A trap in the middle reaches the cells on all sides.
@@ -170,13 +171,25 @@ bool Compact::gathered(double radius, double dt) {
   return radius <= p_.compact_px * c_.scale.m_per_px || waited_ >= p_.patience;
 }
 
+// Straight at full speed until the remaining way is that of a turn; then circles whose centre drifts to the
+// setpoint.
+Command Compact::swim(const Estimate& e, Vec2 target, double dt) {
+  rotation_->advance(dt);
+  const Vec2 way = target - steering_.at_command(e).position;
+  const double circle = circling_->speed() / std::abs(rotation_->rate());
+  if (norm(way) <= 2 * circle)
+    holding_ = true;
+  else if (norm(way) > 8 * circle)
+    holding_ = false;
+  if (!holding_) return steering_.command(e, (1 / norm(way)) * way);
+  const double age = e.predicted ? 0 : c_.delay_frames * c_.frame_period;
+  const Vec2 drift = circling_->drift(target - circling_->centre(e.centroid, age, 1, *rotation_));
+  const Vec2 field = rotation_->field() + circling_->bias(drift, *rotation_);
+  return steering_.linear(e.centroid, (1 / steering_.strongest()) * field);
+}
+
 Command Compact::transport(const Estimate& e, Vec2 target, double radius, double dt) {
-  if (p_.transport == Transport::field) {
-    const MeanState s = steering_.at_command(e);
-    const Vec2 error = s.position - target;
-    if (!std::isfinite(norm(error)) || !std::isfinite(norm(s.velocity))) return steering_.none();
-    return steering_.command(e, -1.0 * (design_.position * error + design_.velocity * s.velocity));
-  }
+  if (p_.transport == Transport::field) return swim(e, target, dt);
   const Vec2 to = target - zero_;
   const double step = p_.speed_fraction * steering_.plant().speed * dt;
   if (radius <= p_.spread_px * c_.scale.m_per_px)
