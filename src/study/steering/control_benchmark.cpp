@@ -208,14 +208,16 @@ Round control_benchmark_round(const ControlBenchmark& b, const std::string& desc
 
 std::vector<CycleTime> measured_cycle_times(const ControlBenchmark& b, const std::function<bool()>& stop) {
   std::vector<CycleTime> all;
-  for (const BenchmarkCase& c : b.cases)
-    for (const Setting& s : *settings_of(c.study)) {
+  for (const BenchmarkCase& c : b.cases) {
+    const Settings settings = settings_of(c.study);
+    for (const Setting& s : *settings) {
       if (stop()) throw study_stopped();
       std::vector<double> times = cycle_times(s.scenario, c.study.first_seed);
       std::sort(times.begin(), times.end());
       all.push_back({c.name, c.study.controllers[s.controller].name, s.delay, quantile(times, 0.5),
                      quantile(times, 0.999), times.back(), 1 / s.scenario.camera.rate});
     }
+  }
   return all;
 }
 

@@ -74,7 +74,8 @@ Json controller_study_schema() {
 std::string study_hash(const ControllerStudy& study) {
   Hash h;
   h.text("compare-controllers");
-  for (const Setting& s : *settings_of(study)) h.text(s.scenario.hash());
+  const Settings all = settings_of(study);
+  for (const Setting& s : *all) h.text(s.scenario.hash());
   h.value(study.seeds);
   h.value(study.first_seed);
   h.text(study.ranked_by + study.label);

@@ -1,0 +1,112 @@
+// `faba design`, `faba tune` and `faba benchmark-control`: results, the same on any number of threads, and
+// messages.
+#include "core/file.h"
+#include "tests/e2e/program.h"
+#include "tests/e2e/refused.h"
+
+using namespace faba;
+
+namespace {
+
+// A hold that takes a few milliseconds: cells of the published model in a box.
+const std::string kHold =
+    "duration = '6 s'\n[camera]\nrate = 15\n[arena]\ntype = 'box'\nsize_px = [320, 240]\n"
+    "[[swarm]]\ncount = 60\nmodel = 'basic'\nstart = { type = 'disc', centre_px = [80, 120], radius_px = 20 "
+    "}\n"
+    "[controller]\ntype = 'proportional'\ngain = 0.1\n[reference]\ntype = 'hold'\nsetpoint_px = [200, 120]\n";
+
+}  // namespace
+
+TEST_CASE("design: gains, poles and margins of the regulator, and advice for other controllers") {
+  const TestFolder f;
+  const auto j = json_in(f.path, "design '" FABA_SCENES "/bench.toml' --set 'controller={type=\"lqr\"}'");
+  REQUIRE(j["poles"].size() == 2);
+  for (const auto& pole : j["poles"])
+    CHECK(std::hypot(pole["re"].get<double>(), pole["im"].get<double>()) < 1);
+  // Butterworth poles of a double integrator (theory F3): damping 0.707, phase margin 65.5 degrees; the decay
+  // of the velocity and the sampled command change them by a few percent.
+  CHECK(j["poles"][0]["damping"].get<double>() == doctest::Approx(0.707).epsilon(0.1));
+  CHECK(j["phase_margin_deg"].get<double>() > 40);
+  CHECK(j["plant"]["acceleration_um_per_s2"].get<double>() > 0);
+  const Called c = faba_in(f.path, "design '" FABA_SCENES "/bench.toml'");
+  CHECK(c.exit == 2);
+  CHECK(c.err.find("add --set 'controller={type=\"lqr\"}'") != std::string::npos);
+}
+
+TEST_CASE(
+    "tune: better on seeds that it has not seen, the same on one and two threads, and after an "
+    "interruption") {
+  const TestFolder f;
+  write_file(f.path / "hold.toml", kHold);
+  const std::string words = "tune hold.toml --range gain=0.02..1 --evaluations 12 --seeds 4 --held-out 6 ";
+  const auto j = json_in(f.path, words + "--out one --threads 1");
+  CHECK(j["complete"] == true);
+  CHECK(j["metric"] == "steady_rms_px");
+  REQUIRE(j["parameters"].size() == 1);
+  CHECK(j["parameters"][0]["given"] == 0.1);
+  CHECK(j["held_out"]["difference"]["ci95"][1].get<double>() < 0);
+  CHECK(j["held_out"]["tuned"]["mean"].get<double>() < j["held_out"]["given"]["mean"].get<double>());
+  CHECK(j["evaluated"].size() <= 13);
+  REQUIRE(faba_in(f.path, words + "--out two --threads 2 --quiet").exit == 0);
+  CHECK(read_file(f.path / "one/tuning.json") == read_file(f.path / "two/tuning.json"));
+  CHECK(read_file(f.path / "one/report.html") == read_file(f.path / "two/report.html"));
+  // The scenario that it writes has the result on the held-out seeds.
+  const auto run = json_in(f.path, "run one/tuned.toml --seed 1 --set record.video=false --out again");
+  CHECK(run["steady_rms_px"].get<double>() < 3 * j["held_out"]["tuned"]["mean"].get<double>());
+}
+
+TEST_CASE("tune: refuses what it cannot tune") {
+  const TestFolder f;
+  write_file(f.path / "hold.toml", kHold);
+  const auto refuses = [&](const std::string& words, const std::string& reason) {
+    const Called c = faba_in(f.path, "tune hold.toml " + words);
+    INFO(c.err);
+    CHECK(c.exit == 2);
+    CHECK(one_clear_line(c.err));
+    CHECK(c.err.find(reason) != std::string::npos);
+  };
+  refuses("--range gain=1..0.1", "0 < LOW < HIGH");
+  refuses("--range gain", "KEY=LOW..HIGH");
+  refuses("--range gian=0.1..1", "did you mean \"gain\"?");
+  refuses("--range 'lead=1 m..2 m'", "time");
+  refuses("--metric speed", "not a metric of controllers");
+  refuses("--controller gradient", "no parameter with a range for tuning");
+  refuses("--controller nothing", "unknown controller");
+  CHECK_FALSE(std::filesystem::exists(f.path / "runs"));
+}
+
+TEST_CASE("benchmark-control: tables of all cases, comparison with the baseline, and forbidden regions") {
+  const TestFolder f;
+  write_file(f.path / "hold.toml", kHold);
+  write_file(f.path / "bench.toml",
+             "title = 'Small'\nversion = 3\nseeds = 4\n"
+             "[[controller]]\nname = 'slow'\ntype = 'proportional'\ngain = 0.05\n"
+             "[[controller]]\nname = 'plan'\ntype = 'mpc'\n"
+             "[[case]]\nname = 'free'\nabout = 'One setpoint.'\nscene = 'hold.toml'\ndelays = [0, "
+             "1]\nbaseline = ['slow']\n"
+             "literature = 'A published figure.'\nspeed = '30 um/s'\n"
+             "[[case]]\nname = 'obstacle'\nscene = 'hold.toml'\nset = { duration = '12 s' }\n"
+             "[[case.keep_out]]\ncorners_px = [[130, 100], [150, 100], [150, 140], [130, 140]]\n");
+  const auto j = json_in(f.path, "benchmark-control bench.toml --out one --threads 2");
+  REQUIRE(j["cases"].size() == 2);
+  CHECK(j["version_of_cases"] == 3);
+  const auto& free = j["cases"][0];
+  REQUIRE(free["combinations"].size() == 4);
+  CHECK(free["combinations"][1]["baseline"] == "slow");
+  CHECK(free["combinations"][1]["minus_baseline"]["steady_rms_px"]["ci95"][1].get<double>() < 0);
+  const auto& obstacle = j["cases"][1]["combinations"];
+  CHECK(obstacle[0]["metrics"]["keep_out_fraction"]["mean"].get<double>() >
+        0);  // it does not know the region
+  CHECK(obstacle[1]["metrics"]["keep_out_fraction"]["mean"].get<double>() == 0);
+  const std::string page = read_file(f.path / "one/control.md");
+  for (const char* text :
+       {"## free", "## obstacle", "A published figure.", "largest distance / speed, s", "| plan |"})
+    CHECK(page.find(text) != std::string::npos);
+  CHECK(std::filesystem::exists(f.path / "one/cycles.csv"));
+  REQUIRE(faba_in(f.path, "benchmark-control bench.toml --out two --threads 1 --quiet").exit == 0);
+  CHECK(read_file(f.path / "one/benchmark.json") == read_file(f.path / "two/benchmark.json"));
+
+  const Called unknown = faba_in(f.path, "benchmark-control bench.toml --only fre");
+  CHECK(unknown.exit == 2);
+  CHECK(unknown.err.find("did you mean \"free\"?") != std::string::npos);
+}
