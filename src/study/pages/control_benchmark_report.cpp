@@ -33,11 +33,15 @@ std::string heading(const MetricInfo& m) {
   return m.unit[0] ? fmt::format("{}, {}", m.name, m.unit) : m.name;
 }
 
-std::string mean_text(const Combination& c, const MetricInfo& m) {
-  const auto it = c.metrics.find(m.key);
-  if (it == c.metrics.end()) return "–";
-  const double half = m.shown * (it->second.mean - it->second.ci95[0]);
-  return with_uncertainty(m.shown * it->second.mean, half, "±");
+// Four digits are enough, also where the interval is narrower.
+std::string mean_text(const MeanOverSeeds& m, double shown) {
+  const double mean = shown * m.mean, half = shown * (m.mean - m.ci95[0]);
+  return half < 1e-3 * std::abs(mean) ? fmt::format("{:.4g}", mean) : with_uncertainty(mean, half, "±");
+}
+
+std::string cell_of(const Combination& c, const std::string& key, double shown) {
+  const auto it = c.metrics.find(key);
+  return it == c.metrics.end() ? "–" : mean_text(it->second, shown);
 }
 
 std::string difference_text(const MeanOverSeeds& d, double shown) {
@@ -57,20 +61,13 @@ ResultTable results_of(const BenchmarkCase& one, const ControllerComparison& r) 
       columns.push_back(&metric(key));
   ResultTable t{{"controller", "delay, frames", "settled"}, {}};
   for (const MetricInfo* m : columns) t.head.push_back(heading(*m));
-  if (one.speed) t.head.push_back("largest distance / speed, s");
+  if (one.speed) t.head.insert(t.head.end(), {"rms distance / speed, s", "largest distance / speed, s"});
   for (const Combination& c : r.combinations) {
     Cells row{c.controller, fmt::format("{}", c.delay), fmt::format("{}/{}", c.settled, c.trials)};
-    for (const MetricInfo* m : columns) row.push_back(mean_text(c, *m));
-    if (one.speed) {
-      const auto it = c.metrics.find("steady_max_px");
-      // The scale of the scene in m per px.
-      const double m_per_px = r.um_per_px * 1e-6;
-      row.push_back(it == c.metrics.end()
-                        ? "–"
-                        : with_uncertainty(it->second.mean * m_per_px / *one.speed,
-                                           (it->second.mean - it->second.ci95[0]) * m_per_px / *one.speed,
-                                           "±"));
-    }
+    for (const MetricInfo* m : columns) row.push_back(cell_of(c, m->key, m->shown));
+    if (one.speed)
+      for (const char* key : {"steady_rms_px", "steady_max_px"})
+        row.push_back(cell_of(c, key, 1e-6 * r.um_per_px / *one.speed));
     t.rows.push_back(std::move(row));
   }
   return t;
@@ -96,12 +93,16 @@ ResultTable baseline_of(const BenchmarkCase& one, const ControllerComparison& r)
 
 std::string ms(double s) { return fmt::format("{:.3g}", 1e3 * s); }
 
+// Of all delays the one with the longest time.
 ResultTable cycles_of(const std::vector<CycleTime>& cycles) {
-  ResultTable t{
-      {"case", "controller", "delay, frames", "median, ms", "99.9 %, ms", "largest, ms", "frame, ms"}, {}};
-  for (const CycleTime& c : cycles)
-    t.rows.push_back({c.name, c.controller, fmt::format("{}", c.delay), ms(c.median), ms(c.most), ms(c.worst),
-                      ms(c.frame_period)});
+  ResultTable t{{"case", "controller", "median, ms", "99.9 %, ms", "largest, ms", "frame, ms"}, {}};
+  for (const CycleTime& c : cycles) {
+    const bool longest = std::none_of(cycles.begin(), cycles.end(), [&](const CycleTime& other) {
+      return other.name == c.name && other.controller == c.controller && other.most > c.most;
+    });
+    if (longest)
+      t.rows.push_back({c.name, c.controller, ms(c.median), ms(c.most), ms(c.worst), ms(c.frame_period)});
+  }
   return t;
 }
 
