@@ -63,7 +63,7 @@ OTHER_MEANINGS = (
     ("map", "the verb", "src/cli/verbs/field/map.cpp src/server/jobs/job_kinds.cpp"),
     ("mean", "the average, as a JSON key, a parameter or a heading",
      "src/app/bench/live_picture.cpp src/cli/verbs/compare.cpp src/study/identify/free_parameter.cpp "
-     "src/study/pages/compare_report.cpp src/study/pages/controller_report.cpp src/study/pages/identify_report.cpp "
+     "src/study/pages/compare_report.cpp src/study/pages/steering/controller_report.cpp src/study/pages/identify_report.cpp "
      "src/study/pages/tracks/track_json.cpp src/study/pages/calibration/calibration_json.cpp web/src/i18n/analyse.ts"),
     ("dipole", "a word of a translated message", "web/src/i18n/program/refusals/coils.ts"),
     ("none", "advice in a translated message", "web/src/i18n/program/refusals/scenario.ts"),
