@@ -1,10 +1,13 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "control/plan/plan.h"
 #include "core/frame.h"
+#include "core/signals.h"
 
 namespace faba {
 
@@ -33,6 +36,8 @@ struct FrameMessage {
   std::span<const float> field;               ///< T, x and y components at every point, image axes
   int picture_columns = 0, picture_rows = 0;  ///< size of `picture`
   std::span<const std::uint8_t> picture;      ///< grey values of the camera image; empty: none
+  const Estimate* estimate = nullptr;         ///< in the message if the error of its centroid is known
+  std::optional<Plan> plan;                   ///< of the controller
 };
 
 /// True if 16-bit coordinates resolve the box in steps of at most 0.1 px.
