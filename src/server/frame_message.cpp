@@ -22,7 +22,15 @@ constexpr std::size_t kMostGridSwarms =
     8;                               // 16 bits for two planes each; the page repeats its colours earlier
 constexpr int kDensitySquares = 64;  // along the longer side of the box
 
-enum Bit : std::uint16_t { kCells = 1, kFloats = 2, kHeadings = 4, kPicture = 8, kSites = 16, kEstimate = 32, kPlan = 64 };
+enum Bit : std::uint16_t {
+  kCells = 1,
+  kFloats = 2,
+  kHeadings = 4,
+  kPicture = 8,
+  kSites = 16,
+  kEstimate = 32,
+  kPlan = 64
+};
 
 template <class T>
 void put(std::string& out, T v) {

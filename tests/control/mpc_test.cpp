@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "app/scenario/scenario.h"
-#include "control/plant/motion_model.h"
 #include "control/plan/obstacles.h"
+#include "control/plant/motion_model.h"
 #include "tests/reference_rig.h"
 
 using namespace faba;
@@ -213,9 +213,8 @@ TEST_CASE("mpc: the plan names the limits that are active, and no others") {
   const auto drop = controller("type = 'mpc'\nmargin_px = 20", inside);
   drop->update(at({{180e-6, 0}, {}}), {{190e-6, 0}, 0, false}, kPeriod);
   CHECK(drop->plan()->active == Limits{PlanLimit::drop});
-  const auto wall =
-      controller("type = 'mpc'\n[[p.obstacle]]\ncorners_px = [[330, 200], [400, 200], [400, 280], [330, 280]]",
-                 free);
+  const auto wall = controller(
+      "type = 'mpc'\n[[p.obstacle]]\ncorners_px = [[330, 200], [400, 200], [400, 280], [330, 280]]", free);
   wall->update(at({{1e-6, 0}, {}}), {{4e-6, 0}, 0, false}, kPeriod);
   CHECK(wall->plan()->active == Limits{PlanLimit::obstacle});
 }
