@@ -182,13 +182,13 @@ TEST_CASE("mpc: the plan names the limits that are active, and no others") {
   for (const int angle : {0, 90, 180, 270})
     rig += reference_coils("f.coil", {double(angle)}) + "resistance = 5\n";
   using Limits = std::vector<PlanLimit>;
-  const auto active = [](const std::string& toml, const ControlContext& c, Vec2 from, int updates = 1) {
-    const auto mpc = controller("type = 'mpc'\n" + toml, c);
-    for (int k = 0; k < updates; ++k) mpc->update(at({from, {}}), {}, kPeriod);
+  const auto active = [](const std::string& toml, const ControlContext& c, Vec2 from) {
+    const auto mpc = controller("type = 'mpc'\nmove_frames = 1\n" + toml, c);
+    mpc->update(at({from, {}}), {}, kPeriod);
     REQUIRE(mpc->plan());
     return mpc->plan()->active;
   };
-  ControlContext c = context(kDipole, rig);
+  ControlContext c = context(kBasic, rig);
   c.max_current.assign(4, 2);
   const Vec2 far{-200e-6, 100e-6}, near{-0.3e-6, 0};
   CHECK(active("", c, near) == Limits{});

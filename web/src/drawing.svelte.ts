@@ -3,7 +3,7 @@
 import { partTable } from './form/schema';
 import type { Word } from './i18n';
 import type { Lab } from './lab.svelte';
-import { curveReference, hasProperty, obstacleController, sectionOf, sharedValues, typeOf } from './part_traits';
+import { curveReference, hasProperty, obstacleController, sectionOf, typeOf } from './part_traits';
 import type { Steering } from './steering.svelte';
 import { crossesItself, polygonAt, type Point } from './view/polygon';
 
@@ -45,6 +45,11 @@ export class Drawing {
   /** The points of the present figure. */
   get points(): Point[] {
     return this.tool === 'path' ? this.steering.sketch : this.corners;
+  }
+  /** Whether the newest point is in the upper half of the view. */
+  get isHigh(): boolean {
+    const at = this.cursor ?? this.points.at(-1);
+    return at !== undefined && at[1] < (this.lab.scene?.view.height ?? 0) / 2;
   }
   begin() {
     this.end();
@@ -104,14 +109,12 @@ export class Drawing {
     if (!parts) return void (this.waiting = corners);
     await this.lab.exchange({ ...parts, controller: { ...parts.controller, obstacle: [...(parts.controller.obstacle ?? []), { corners_px: corners }] } });
   }
-  /** Replaces the controller by one that avoids the obstacle that waits; values that both have are kept. */
+  /** Replaces the controller by one that avoids the obstacle that waits, with its default values: those of another law need not suit it. */
   async switchController() {
     const type = obstacleController(this.lab.schema), corners = this.waiting;
     if (type === undefined || !corners) return;
     this.waiting = null;
-    const parts: Record<string, any> = this.steering.feedback(), before = partTable(parts.controller ?? this.lab.scenario.controller);
-    const kept = sharedValues(sectionOf(this.lab.schema, 'controller'), before, type);
-    await this.lab.exchange({ ...parts, controller: { ...kept, type, obstacle: [{ corners_px: corners }] } });
+    await this.lab.exchange({ ...this.steering.feedback(), controller: { type, obstacle: [{ corners_px: corners }] } });
   }
   async remove(index: number) {
     const controller = this.lab.scenario.controller;

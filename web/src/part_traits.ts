@@ -42,11 +42,6 @@ export function hasTrait(section: Schema | undefined, value: any, trait: string)
 export const hasProperty = (section: Schema | undefined, type: string | undefined, property: string) =>
   section !== undefined && type !== undefined && matches(variant(section, type), { property });
 
-/** The values of a part that another part of the section has, too. */
-export function sharedValues(section: Schema | undefined, table: Record<string, any>, type: string): Record<string, any> {
-  return Object.fromEntries(Object.entries(table).filter(([key, v]) => key !== 'type' && v !== null && hasProperty(section, type, key)));
-}
-
 /** Whether a controller is open-loop: a schedule or manual control. */
 export const isOpenLoop = (schema: Schema | null, controller: any) => hasTrait(sectionOf(schema, 'controller'), controller, 'open_loop');
 

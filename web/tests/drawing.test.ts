@@ -1,5 +1,6 @@
 // Drawing obstacles and paths by pointer and keyboard.
 import { beforeEach, describe, expect, test } from 'vitest';
+import { Changes } from '../src/changes.svelte';
 import type { Drawing } from '../src/drawing.svelte';
 import { variants, type Schema } from '../src/form/schema';
 import type { Lab } from '../src/lab.svelte';
@@ -12,7 +13,6 @@ const points: Schema = { type: 'array', items: { type: 'array', items: { type: '
 function schemaWith(curve: boolean): Schema {
   const schema: Schema = JSON.parse(JSON.stringify(sampleSchema)), { controller, reference } = schema.properties!;
   controller.oneOf!.push({ title: 'eta', 'x-traits': ['feedback'], properties: { type: { const: 'eta' }, obstacle: { type: 'array' }, gain: { type: 'number' } } } as Schema);
-  controller.oneOf!.find((o) => o.properties?.type?.const === 'alpha')!.properties!.gain = { type: 'number' };
   if (curve) reference.oneOf!.push({ title: 'bend', properties: { type: { const: 'bend' }, points_px: points } } as Schema);
   return schema;
 }
@@ -97,12 +97,12 @@ describe('a controller that does not avoid obstacles', () => {
     triangle.forEach((q) => drawing.place(q));
     await drawing.finish();
   };
-  test('is replaced only after the answer; shared values are kept', async () => {
+  test('is replaced only after the answer, by one with default values', async () => {
     lab.scenario.controller = { type: 'alpha', gain: 7, field: [0, 0] };
     await draw();
     expect([lab.sent, drawing.waiting]).toEqual([[], triangle]);
     await drawing.switchController();
-    expect(lab.sent).toEqual([{ controller: { type: 'eta', gain: 7, obstacle: [{ corners_px: triangle }] } }]);
+    expect(lab.sent).toEqual([{ controller: { type: 'eta', obstacle: [{ corners_px: triangle }] } }]);
     expect(drawing.waiting).toBeNull();
   });
   test('during manual control, the controller before it is used', async () => {
@@ -174,4 +174,16 @@ describe('a path', () => {
     key('Escape');
     expect([drawing.tool, steering.sketch]).toEqual([null, []]);
   });
+});
+
+test('obstacles that are drawn quickly one after the other are undone one by one; a drag of the field at once', () => {
+  const changes = new Changes(), first = { controller: { type: 'eta', obstacle: [1] } }, second = { controller: { type: 'eta', obstacle: [1, 2] } };
+  changes.add({ controller: { type: 'eta' } }, first, 0);
+  changes.add(first, second, 10);
+  expect(changes.back).toEqual(first);
+  changes.removeNewest();
+  expect(changes.back).toEqual({ controller: { type: 'eta' } });
+  const fields = new Changes();
+  [1, 2].forEach((x) => fields.add({ controller: { type: 'zeta' } }, { controller: { type: 'gamma', field: [x, 0] } }, x));
+  expect(fields.back).toEqual({ controller: { type: 'zeta' } });
 });

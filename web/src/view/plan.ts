@@ -106,7 +106,9 @@ export class PlanOverlay {
       g.lineWidth = width * ratio;
       g.stroke();
     }
-    this.words(this.texts.error(), x + 6 * ratio, y + e.major * k + 16 * ratio, p.text, p);
+    g.textAlign = 'right';
+    this.words(this.texts.error(), x - e.major * k - 8 * ratio, y - e.minor * k - 8 * ratio, p.text, p);
+    g.textAlign = 'left';
   }
 
   private tool({ corners, cursor }: ToolMarks, p: Palette, ratio: number) {
