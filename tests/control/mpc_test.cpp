@@ -190,7 +190,7 @@ TEST_CASE("mpc: the plan names the limits that are active, and no others") {
   };
   ControlContext c = context(kBasic, rig);
   c.max_current.assign(4, 2);
-  const Vec2 far{-200e-6, 100e-6}, near{-0.3e-6, 0};
+  const Vec2 far{-10e-6, 0}, near{-0.05e-6, 0};
   CHECK(active("", c, near) == Limits{});
   CHECK(active("", c, far) == Limits{PlanLimit::output});
   ControlContext weak = c;
@@ -198,8 +198,9 @@ TEST_CASE("mpc: the plan names the limits that are active, and no others") {
   CHECK(active("", weak, near) == Limits{});
   CHECK(active("", weak, far) == Limits{PlanLimit::current});
   ControlContext slow = c;
-  slow.max_slew = 0.1;
-  CHECK(active("", slow, far) == Limits{PlanLimit::slew});
+  slow.max_slew = 1;
+  CHECK(active("", slow, near) == Limits{});
+  CHECK(active("", slow, {-1e-6, 0}) == Limits{PlanLimit::slew});
   CHECK(active("max_heat = '0.1 mW'", c, far) == Limits{PlanLimit::heat});
   CHECK(active("max_heat = '0.1 mW'", c, near) == Limits{});
 
