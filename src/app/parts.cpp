@@ -42,6 +42,7 @@ namespace faba {
   X(reference, none)           \
   X(reference, hold)           \
   X(reference, route)          \
+  X(reference, path)           \
   X(controller, manual)        \
   X(controller, fuzzy)         \
   X(controller, proportional)  \

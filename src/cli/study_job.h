@@ -38,6 +38,7 @@ class StudyJob {
 std::unique_ptr<StudyJob> identify_job(const StudySource& source, bool needs_inputs);
 std::unique_ptr<StudyJob> calibrate_job(const StudySource& source, bool needs_inputs);
 std::unique_ptr<StudyJob> controllers_job(const StudySource& source);
+std::unique_ptr<StudyJob> tune_job(const StudySource& source);
 std::unique_ptr<StudyJob> track_job(const StudySource& source);
 std::unique_ptr<StudyJob> activity_job(const StudySource& source);
 

@@ -21,6 +21,8 @@ namespace faba::cli {
   X(optics)              \
   X(field)               \
   X(rig)                 \
+  X(design)              \
+  X(tune)                \
   X(compare_controllers) \
   X(identify)            \
   X(calibrate)           \

@@ -15,6 +15,7 @@
 namespace faba {
 
 class FieldLibrary;
+struct LqrDesign;
 
 /// Estimates the state of the swarm from observations.
 class Estimator {
@@ -56,6 +57,8 @@ class Controller {
   /// The plan of the last update, for display. Empty for a controller that does not predict, before its first
   /// update, and if the last command does not follow from a plan.
   virtual std::optional<Plan> plan() const { return std::nullopt; }
+  /// The linear design of its gains, for one axis; null if it has none.
+  virtual const LqrDesign* design() const { return nullptr; }
 };
 
 /// World frame, m.

@@ -96,6 +96,7 @@ Schema<Fuzzy::Params> Fuzzy::schema() {
             .max = 1e5,
             .doc = "Distance up to which the swarm is near",
             .source = "assumed (A9)",
+            .tuned = {1, 100},
             .title = "Near distance"})
       .add("far_px", &Params::far_px,
            {.unit = "px",
@@ -103,6 +104,7 @@ Schema<Fuzzy::Params> Fuzzy::schema() {
             .max = 1e5,
             .doc = "Distance from which the swarm is far",
             .source = "assumed (A9)",
+            .tuned = {5, 400},
             .title = "Far distance"})
       .add("set", &Params::set,
            {.doc = "Custom fuzzy states that replace near and far: [[controller.set]]",

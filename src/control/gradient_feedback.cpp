@@ -26,14 +26,16 @@ class GradientFeedback final : public Controller {
              {.min = 0,
               .max = 10,
               .doc = "Displacement of the zero from the setpoint, as a fraction of the error of the swarm",
-              .source = "assumed"})
+              .source = "assumed",
+              .tuned = {0.05, 5}})
         .add("integral_time", &Params::integral_time,
              {.unit = "s",
               .min = 1e-2,
               .max = 1e6,
               .doc = "Integral time: with a constant error, the integral part grows by the proportional part "
                      "in each integral time",
-              .source = "assumed"})
+              .source = "assumed",
+              .tuned = {0.3, 30}})
         .add("most_px", &Params::max_lead_px,
              {.unit = "px",
               .min = 0,

@@ -9,8 +9,9 @@ namespace {
 /// Linear-quadratic regulator (theory F3), designed from the plant of the swarm's mean,
 ///   a = sat(-(k_p e + k_v v + k_i integral of e)),   |a| <= 1,
 /// a fraction of `max_output` along which the cells swim. The gains minimise the sum over the frames of
-/// (|e| / error)^2 + |a|^2 for a swarm whose velocity is small. Without an estimator that predicts, the position at the time
-/// of the command follows from the commands since the picture. The ambient field is compensated.
+/// (|e| / error)^2 + |a|^2 for a swarm whose velocity is small. Without an estimator that predicts, the
+/// position at the time of the command follows from the commands since the picture. The ambient field is
+/// compensated.
 class Lqr final : public Controller {
  public:
   struct Params {
@@ -24,6 +25,7 @@ class Lqr final : public Controller {
   Lqr(const Params& p, const ControlContext& c);
   Command update(const Estimate& e, const Target& target, double dt) override;
   double max_field() const override { return steering_.max_field(); }
+  const LqrDesign* design() const override { return &design_; }
   void archive(Archive& a) override { a& steering_& integral_; }
 
  private:
@@ -42,6 +44,7 @@ Schema<Lqr::Params> Lqr::schema() {
             .max = 1e5,
             .doc = "Distance from the setpoint that is worth the largest command: smaller is faster",
             .source = "assumed",
+            .tuned = {0.2, 50},
             .title = "Distance worth the full command"})
       .add("velocity_weight", &Params::velocity_weight,
            {.unit = "m/s",

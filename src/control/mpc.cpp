@@ -105,11 +105,13 @@ Schema<Mpc::Params> Mpc::schema() {
             .max = 1e5,
             .doc = "Distance from the setpoint that is worth the largest command: smaller is faster",
             .source = "assumed",
+            .tuned = {0.2, 50},
             .title = "Distance worth the full command"})
       .add("change", &Params::change,
            {.min = 0,
             .max = 1e6,
-            .doc = "Weight of a change of the command between two moves, relative to the command itself"})
+            .doc = "Weight of a change of the command between two moves, relative to the command itself",
+            .tuned = {1e-3, 10}})
       .add("moves", &Params::moves, {.min = 1, .max = 60, .doc = "Number of moves in the plan"})
       .add("move_frames", &Params::move_frames,
            {.min = 1,

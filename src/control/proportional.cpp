@@ -58,7 +58,8 @@ Schema<Proportional::Params> Proportional::schema() {
            {.min = 0,
             .max = 10,
             .doc = "Loop gain; the proportional gain is gain / (hold_frames + delay)",
-            .source = "0.45: theory F3"})
+            .source = "0.45: theory F3",
+            .tuned = {0.05, 5}})
       .add("integral_gain", &Params::integral_gain,
            {.min = 0,
             .max = 10,
@@ -93,6 +94,7 @@ Schema<Proportional::Params> Proportional::schema() {
                    "cells need "
                    "to turn; default: no prediction",
             .source = "theory F2: ln(2 kappa) / w_B",
+            .tuned = {0.01, 1},
             .title = "Prediction time"})
       .validity(
           "The law is linear, for an integrator plant. Reorientation that takes longer than a frame adds a "

@@ -203,6 +203,7 @@ Json type_json(const char* type, const FieldInfo& f, const Json& fallback) {
   if (numeric && f.max < kOpen) j["maximum"] = f.max;
   if (!fallback.is_null()) j["default"] = fallback;
   if (!f.source.empty()) j["x-source"] = f.source;
+  if (!f.tuned.empty()) j["x-tuned"] = f.tuned;
   if (f.role != Role::none) j["x-role"] = kRoleWords.at(std::size_t(f.role));
   return j;
 }

@@ -42,6 +42,8 @@ struct FieldInfo {
   std::vector<std::string> choices = {};  ///< allowed words, in the order of the enum
   std::string old_key = {};               ///< former name of the key, which is still read
   Role role = Role::none;
+  /// Range in which `faba tune` searches, in `unit`, both positive; empty: it leaves the value as it is.
+  std::vector<double> tuned = {};
   std::string title = {};  ///< name in forms, for a key that misleads; empty: forms make it from the key
   /// Argument of schema(context) for types whose schema depends on something, such as the registry of the
   /// parts that a table may name.

@@ -56,8 +56,8 @@ StudyDirectory open_study(const StudyOptions& v, const StudyJob& job) {
   const std::filesystem::path out = out_of(v);
   const StudySource source = job.source();
   std::string again = shell_word(program()) + " " + source.verb;
-  for (const std::string& word : source.file.empty() ? source.options : std::vector{v.study.string()})
-    again += " " + shell_word(word);
+  if (!source.file.empty()) again += " " + shell_word(v.study.string());
+  for (const std::string& word : source.options) again += " " + shell_word(word);
   again += (source.file.empty() ? " --folder " : " --out ") + shell_word(out.string());
   for (const std::string& word : engine_words(v.engine)) again += " " + shell_word(word);
   StudyDirectory dir(out, job.hash(), again, v.force, source);
@@ -94,21 +94,25 @@ void report_partial(const StudyOptions& v, const Common& c, const std::filesyste
 
 }  // namespace
 
-void add_study_options(CLI::App* v, StudyOptions& o) {
-  v->add_option("study", o.study, "Study file (TOML)")->required();
+void add_study_run_options(CLI::App* v, StudyOptions& o, const std::string& folder) {
   v->add_option("-o,--out", o.out,
-                "Directory of the study; default: runs/NAME. An incomplete study is resumed")
+                "Directory of the study; default: " + folder + ". An incomplete study is resumed")
       ->check(not_empty);
-  v->add_option("--shard", o.shard,
-                "Compute only this part of the simulations, such as 3/16, to use several machines")
-      ->check(not_empty);
-  v->add_option("--merge", o.merge, "First import the results in these directories of the same study");
   v->add_option("--threads", o.threads,
                 "Number of threads; default: all threads of the machine. Does not change the result")
       ->check(integers(1, 1024));
   v->add_flag("--force", o.force,
               "Replace another study in the directory, or write the pages of a complete study again");
   add_engine_options(v, o.engine);
+}
+
+void add_study_options(CLI::App* v, StudyOptions& o) {
+  v->add_option("study", o.study, "Study file (TOML)")->required();
+  v->add_option("--shard", o.shard,
+                "Compute only this part of the simulations, such as 3/16, to use several machines")
+      ->check(not_empty);
+  v->add_option("--merge", o.merge, "First import the results in these directories of the same study");
+  add_study_run_options(v, o, "runs/NAME");
 }
 
 SweepOptions sweep_options(const StudyOptions& v) {

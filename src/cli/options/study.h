@@ -25,6 +25,8 @@ struct StudyOptions {
   EngineOptions engine = {};
 };
 
+/// Adds --out, whose help names `folder` as the default, --threads, --force, and the options of engines.
+void add_study_run_options(CLI::App* v, StudyOptions& o, const std::string& folder);
 /// Adds the study file, --out, --shard, --merge, --threads, --force, and the options of engines.
 void add_study_options(CLI::App* v, StudyOptions& o);
 

@@ -82,12 +82,14 @@ DiscretePlant discrete(const LinearPlant& plant, double period) {
 }
 
 LqrDesign lqr_design(const LinearPlant& plant, double period, const LqrWeights& weights) {
-  if (!(plant.gain > 0)) return {};
+  LqrDesign d;
+  d.plant = plant;
+  d.period = period;
+  if (!(plant.gain > 0)) return d;
   const Axis x = axis_of(plant, period, weights);
   const Matrix p = riccati(x.a, x.b, x.q);
   const double cost = 1 + (x.b.transpose() * p * x.b)(0, 0);
   const Matrix k = (x.b.transpose() * p * x.a) / cost;
-  LqrDesign d;
   d.position = k(0, 0) / x.unit[0];
   d.cost = p(0, 0) / (x.unit[0] * x.unit[0]);
   if (x.has_velocity) {
@@ -104,10 +106,11 @@ LqrDesign lqr_design(const LinearPlant& plant, double period, const LqrWeights& 
 
 // L(z) = K A^d z^-d (z - A)^-1 B / (1 + K sum_{j<d} A^j B z^-(j+1)): the predictor of the delayed state is
 // part of the controller.
-Margins margins_of(const LinearPlant& plant, const LqrDesign& design, double period, int delay) {
+Margins margins_of(const LqrDesign& design, int delay) {
+  const double period = design.period;
   LqrWeights w{.error = 1};
   if (design.integral != 0) w.integral_time = 1;
-  const Axis x = axis_of(plant, period, w);
+  const Axis x = axis_of(design.plant, period, w);
   Matrix k(1, x.a.rows());
   k(0, 0) = design.position;
   if (x.has_velocity) k(0, 1) = design.velocity / period;

@@ -17,6 +17,8 @@ struct LqrWeights {
 /// A linear-quadratic regulator of one axis, a = -(position e + velocity v + integral of e), and its loop
 /// with a camera delay that a predictor compensates.
 struct LqrDesign {
+  LinearPlant plant;
+  double period = 0;                        ///< s, between two commands
   double position = 0;                      ///< 1/m
   double velocity = 0;                      ///< s/m; 0 for an immediate plant
   double integral = 0;                      ///< 1/(m s)
@@ -33,9 +35,9 @@ struct Margins {
   double phase = 0;  ///< rad
   double delay = 0;  ///< s: the additional delay with which it becomes unstable
 };
-/// `delay`: frames between a picture and the command computed from it, which the controller predicts over
+/// `delay`: periods between a picture and the command computed from it, which the controller predicts over
 /// with the same plant.
-Margins margins_of(const LinearPlant& plant, const LqrDesign& design, double period, int delay);
+Margins margins_of(const LqrDesign& design, int delay);
 
 /// Advances position and velocity of the linear plant by one period: x(k+1) = a x(k) + b command(k).
 struct DiscretePlant {

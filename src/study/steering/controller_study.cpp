@@ -101,20 +101,6 @@ std::vector<double> trial_values(const Setting& s, std::uint64_t seed, const std
   return values;
 }
 
-MeanOverSeeds mean_of(const std::vector<double>& values) {
-  MeanOverSeeds m;
-  std::vector<double> defined;
-  std::copy_if(values.begin(), values.end(), std::back_inserter(defined),
-               [](double v) { return std::isfinite(v); });
-  m.n = int(defined.size());
-  if (m.n == 0) return m;
-  for (const double v : defined) m.mean += v / m.n;
-  m.sd = sample_sd(defined);
-  const double half = m.n > 1 ? student_t_quantile(0.975, m.n - 1) * m.sd / std::sqrt(m.n) : kNaN;
-  m.ci95 = {m.mean - half, m.mean + half};
-  return m;
-}
-
 // Wilson's confidence interval of a fraction.
 std::array<double, 2> fraction_ci95(int k, int n) {
   constexpr double z = 1.959964;
@@ -137,7 +123,7 @@ void curves(const Trials& trials, Combination& c) {
       std::vector<double> one;
       one.reserve(trials.size());
       for (const auto t : trials) one.push_back(value(t, what, k));
-      const MeanOverSeeds m = mean_of(one);
+      const MeanOverSeeds m = mean_over_seeds(one);
       (what == 1 ? c.distance_px : c.rms_radius_px).push_back(m.n > 0 ? m.mean : kNaN);
       (what == 1 ? c.distance_sd_px : c.rms_radius_sd_px).push_back(m.n > 0 ? m.sd : kNaN);
     }
@@ -154,7 +140,7 @@ Combination combined(const ControllerStudy& study, const Setting& s, const Trial
   for (std::size_t i = 0; i < metrics.size(); ++i) {
     std::vector<double> values;
     for (const auto t : trials) values.push_back(t[i]);
-    const MeanOverSeeds m = mean_of(values);
+    const MeanOverSeeds m = mean_over_seeds(values);
     if (metrics[i]->value == &Metrics::settling_time_s) c.settled = m.n;
     if (m.n > 0) c.metrics[metrics[i]->key] = m;
   }
@@ -181,12 +167,26 @@ void compare_with_best(std::vector<Combination>& all, const std::vector<Trials>&
     std::vector<double> difference;
     for (std::size_t k = 0; k < trials[i].size(); ++k)
       difference.push_back(trials[i][k][ranked] - trials[best][k][ranked]);
-    const MeanOverSeeds m = mean_of(difference);
+    const MeanOverSeeds m = mean_over_seeds(difference);
     if (m.n > 1) all[i].excess_over_best = m;
   }
 }
 
 }  // namespace
+
+MeanOverSeeds mean_over_seeds(const std::vector<double>& values) {
+  MeanOverSeeds m;
+  std::vector<double> defined;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(defined),
+               [](double v) { return std::isfinite(v); });
+  m.n = int(defined.size());
+  if (m.n == 0) return m;
+  for (const double v : defined) m.mean += v / m.n;
+  m.sd = sample_sd(defined);
+  const double half = m.n > 1 ? student_t_quantile(0.975, m.n - 1) * m.sd / std::sqrt(m.n) : kNaN;
+  m.ci95 = {m.mean - half, m.mean + half};
+  return m;
+}
 
 ControllerStudy read_controller_study(const std::filesystem::path& file) {
   const Document d = read_toml(file);

@@ -36,6 +36,9 @@ struct MeanOverSeeds {
   int n = 0;  ///< trials in which the quantity was defined
 };
 
+/// Of the finite values.
+MeanOverSeeds mean_over_seeds(const std::vector<double>& values);
+
 /// Results of a controller over the seeds, with one model and one delay.
 struct Combination {
   std::string controller, model;

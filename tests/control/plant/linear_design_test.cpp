@@ -34,7 +34,7 @@ TEST_CASE("lqr: a double integrator approaches the closed form of continuous tim
   const LqrDesign d = lqr_design({.gain = g, .rate = 0}, period, {.error = error});
   CHECK(d.position == doctest::Approx(1 / error).epsilon(2 * omega * period));
   CHECK(d.velocity == doctest::Approx(std::sqrt(2 / (g * error))).epsilon(2 * omega * period));
-  const Margins m = margins_of({.gain = g, .rate = 0}, d, period, 0);
+  const Margins m = margins_of(d, 0);
   // Its return difference is at least 1 at every frequency: 60 degrees of phase, and any higher gain. This
   // design without weight of the velocity has 65.5 degrees.
   CHECK(m.phase > kPi / 3);
@@ -67,7 +67,7 @@ TEST_CASE("lqr: a delay of its delay margin makes the loop unstable, less does n
   const LqrDesign d = lqr_design(plant, kPeriod, {.error = 2e-6});
   const DiscretePlant x = discrete(plant, kPeriod);
   for (const int delay : {0, 2}) {
-    const Margins m = margins_of(plant, d, kPeriod, delay);
+    const Margins m = margins_of(d, delay);
     CHECK(m.gain > 1);
     // The loop with `extra` more frames of delay than the predictor knows.
     const auto grows = [&](int extra) {

@@ -107,7 +107,8 @@ export class PlanOverlay {
       g.stroke();
     }
     g.textAlign = 'right';
-    this.words(this.texts.error(), x - e.major * k - 8 * ratio, y - e.minor * k - 8 * ratio, p.text, p);
+    const text = this.texts.error(), least = g.measureText(text).width + 6 * ratio; // not beyond the left edge
+    this.words(text, Math.max(least, x - e.major * k - 8 * ratio), y - e.minor * k - 8 * ratio, p.text, p);
     g.textAlign = 'left';
   }
 
