@@ -158,12 +158,10 @@ void put_estimate(std::string& out, const FrameMessage& m) {
 }
 
 void put_plan(std::string& out, const FrameMessage& m) {
-  unsigned active = 0;
-  for (const PlanLimit limit : m.plan->active) active |= 1U << unsigned(limit);
-  put(out, std::uint16_t(m.plan->path.size()));
-  put(out, std::uint16_t(active));
-  put(out, float(m.plan->step));
-  for (const Vec2 p : m.plan->path) put_position(out, m, p);
+  put(out, std::uint16_t(m.path.size()));
+  put(out, m.limits);
+  put(out, float(m.path_step));
+  for (const Vec2 p : m.path) put_position(out, m, p);
 }
 
 }  // namespace
@@ -183,7 +181,7 @@ std::string encode_frame(const FrameMessage& m) {
   put(out, std::uint16_t(1));
   put(out, std::uint16_t(kCells | (floats ? kFloats : 0) | (headings ? kHeadings : 0) |
                          (m.picture.empty() ? 0 : kPicture) | (gridded ? kSites : 0) |
-                         (has_error(m.estimate) ? kEstimate : 0) | (m.plan ? kPlan : 0)));
+                         (has_error(m.estimate) ? kEstimate : 0) | (m.path.empty() ? 0 : kPlan)));
   put(out, m.run);
   put(out, std::uint32_t(n));
   put(out, std::uint32_t(m.rows.size() / m.columns));
@@ -203,7 +201,7 @@ std::string encode_frame(const FrameMessage& m) {
     put_cells(out, m, floats, headings);
   put_all(out, m.picture);
   if (has_error(m.estimate)) put_estimate(out, m);
-  if (m.plan) put_plan(out, m);
+  if (!m.path.empty()) put_plan(out, m);
   return out;
 }
 

@@ -92,7 +92,12 @@ std::shared_ptr<const std::string> ShownRun::message(std::uint32_t run, bool cam
   m.ends = ends;
   m.sites = sites;
   m.estimate = &estimate;
-  m.plan = s.controller().plan();
+  const auto plan = s.controller().plan();
+  if (plan) {
+    m.path = plan->path;
+    m.path_step = plan->step;
+    for (const auto limit : plan->active) m.limits = std::uint16_t(m.limits | (1U << unsigned(limit)));
+  }
   m.rows = rows;
   m.columns = columns.size();
   const std::size_t n = field_x.size();

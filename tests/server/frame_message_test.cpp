@@ -173,7 +173,10 @@ TEST_CASE("a frame message has the estimate and the plan at its end, if they are
   CHECK(encode_frame(m).size() == plain);  // the error is not known
   e.centroid_cov = {4e-12, 1e-12, 8e-12};
   e.predicted = true;
-  m.plan = Plan{{{0, 0}, {20e-6, -40e-6}}, 0.25, {PlanLimit::current, PlanLimit::obstacle}};
+  const std::vector<Vec2> path_m = {{0, 0}, {20e-6, -40e-6}};
+  m.path = path_m;
+  m.path_step = 0.25;
+  m.limits = 2 | 64;
   const std::string b = encode_frame(m);
   CHECK(at<std::uint16_t>(b, 6) == (1 | 4 | 32 | 64));
   REQUIRE(b.size() == plain + 24 + 8 + 16);
@@ -187,6 +190,6 @@ TEST_CASE("a frame message has the estimate and the plan at its end, if they are
   for (std::size_t k = 0; k < 4; ++k) CHECK(at<float>(b, plain + 32 + 4 * k) == doctest::Approx(path[k]));
 
   e.visible = 0;
-  m.plan.reset();
+  m.path = {};
   CHECK(encode_frame(m).size() == plain);
 }

@@ -12,7 +12,7 @@ export function inside(polygon: Point[], [x, y]: Point): boolean {
   return odd;
 }
 
-/** The last polygon with the point inside, which is drawn on top; null if there is none. */
+/** The last polygon with the point inside, which is drawn on top; otherwise null. */
 export function polygonAt(polygons: Point[][], p: Point): number | null {
   for (let i = polygons.length - 1; i >= 0; --i) if (inside(polygons[i], p)) return i;
   return null;
