@@ -14,14 +14,16 @@
 namespace faba {
 namespace {
 
+constexpr int kIterations = 200;      // per frame: a few milliseconds with slew limits on four coils
+constexpr double kWithin = 1 - 1e-9;  // of a slew rate: the time between two frames is rounded
 constexpr double kPlaceWeight = 100;  // of a violation by error_px, relative to an error of that size
 
 /// Model predictive control (theory F3): the commands of the next `moves` moves that minimise
 ///   sum_j |e_j|^2 / error^2 + |a_j|^2 + change |a_j - a_(j-1)|^2 + cost to go of the regulator `lqr`
 /// under the limits of the coils (current, slew rate, heat), of the view, the drop and obstacles. The plant
-/// is linearised along the last plan once per frame. Without active limits the command is that of `lqr`. If
-/// the solver does not converge in its fixed number of iterations, the command is that of `lqr` within |a|
-/// <= 1.
+/// is linearised along the last plan once per frame. Without active limits the command is that of `lqr`. The
+/// solver has a fixed number of iterations, and continues from its last point in the next frame; of that
+/// point and the last plan, the one that costs less is used.
 class Mpc final : public Controller {
  public:
   struct Obstacle {
@@ -155,6 +157,13 @@ Mpc::Mpc(const Params& p, const ControlContext& c)
                          {.error = p.error_px * c.scale.m_per_px})),
       plan_(std::size_t(p.moves)),
       current_(c.field->coils(), 0.0) {
+  bool heats = false;
+  for (std::size_t k = 0; k < c.field->coils(); ++k) heats = heats || c.field->circuit(k).resistance > 0;
+  if (p.max_heat && !heats)
+    throw Error(
+        Errc::usage, "controller.max_heat",
+        "the heat is not known, because no coil of the field has a resistance; set resistance in each "
+        "[[coil]] of the coil system, or remove max_heat");
   for (const Obstacle& o : p.obstacle) {
     Polygon polygon;
     for (const Vec2 corner : o.corners_px) polygon.push_back(c.frame.world_from_image(corner));
@@ -292,15 +301,17 @@ Vec2 Mpc::planned(const MeanState& s, Vec2 to) {
     for (const Edge& edge : edges_near(h.states[j].position))
       program.keep(edge.limit, h.by_command[j].topRows(2), edge.direction, edge.room,
                    p_.error_px * c_.scale.m_per_px, kPlaceWeight);
-  solution_ = solve(program.take(), solution_);
-  if (!solution_.converged || !solution_.x.allFinite()) {
+  solution_ = solve(program.take(), solution_, kIterations);
+  if (!solution_.x.allFinite()) {
     solution_ = {};
     std::fill(plan_.begin(), plan_.end(), Vec2{});
     return -1.0 * (design_.position * (s.position - at.back()) + design_.velocity * s.velocity);
   }
   std::vector<Vec2> solution;
-  for (Eigen::Index i = 0; i < solution_.x.size(); i += 2)
-    solution.push_back({solution_.x[i], solution_.x[i + 1]});
+  for (Eigen::Index i = 0; i < solution_.x.size(); i += 2) {
+    const Vec2 a{solution_.x[i], solution_.x[i + 1]};
+    solution.push_back((1 / std::max(1.0, norm(a))) * a);
+  }
   move_towards(solution, s, at);
   begin_ = s;
   active_ = program.active(solution_);
@@ -322,7 +333,7 @@ void Mpc::keep_limits(Command& command) const {
   for (std::size_t k = 0; k < current_.size(); ++k) {
     double& current = command.current[k];
     if (c_.max_slew) {
-      const double change = *c_.max_slew * c_.frame_period;
+      const double change = kWithin * *c_.max_slew * c_.frame_period;
       current = std::clamp(current, current_[k] - change, current_[k] + change);
     }
     if (k < c_.max_current.size()) current = std::clamp(current, -c_.max_current[k], c_.max_current[k]);

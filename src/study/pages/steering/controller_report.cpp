@@ -15,7 +15,7 @@
 namespace faba {
 namespace {
 
-const MeanOverSeeds* metric(const Combination& c, const char* name) {
+const MeanOverSeeds* metric_of(const Combination& c, const char* name) {
   const auto it = c.metrics.find(name);
   return it == c.metrics.end() ? nullptr : &it->second;
 }
@@ -54,7 +54,7 @@ std::string table(const ControllerComparison& r) {
   std::vector<std::pair<const char*, const char*>> columns;
   for (const auto& column : kColumns)
     if (std::any_of(r.combinations.begin(), r.combinations.end(), [&](const Combination& c) {
-          return metric(c, column.first) && metric(c, column.first)->mean != 0;
+          return metric_of(c, column.first) && metric_of(c, column.first)->mean != 0;
         }))
       columns.push_back(column);
   std::vector<std::string> head{"controller", "settled"};
@@ -67,7 +67,7 @@ std::string table(const ControllerComparison& r) {
     std::vector<std::string> cells{escape_markup(c.controller), fmt::format("{} of {}", c.settled, c.trials)};
     if (head[1] == "condition") cells.insert(cells.begin() + 1, escape_markup(condition(r, c)));
     cells.push_back(c.excess_over_best ? with_interval(&*c.excess_over_best) : "–");
-    for (const auto& column : columns) cells.push_back(with_interval(metric(c, column.first)));
+    for (const auto& column : columns) cells.push_back(with_interval(metric_of(c, column.first)));
     out += table_row(cells, "td");
   }
   return out +
@@ -140,7 +140,7 @@ Figure against_delay(const ControllerComparison& r, const Variant& model) {
     ErrorBars bars{{}, {}, {}, {}, ink};
     for (const Combination& c : r.combinations)
       if (c.model == model.name && c.controller == line.label)
-        if (const MeanOverSeeds* m = metric(c, "steady_rms_px")) {
+        if (const MeanOverSeeds* m = metric_of(c, "steady_rms_px")) {
           line.x.push_back(c.delay);
           line.y.push_back(m->mean);
           bars.x.push_back(c.delay);
@@ -161,11 +161,11 @@ std::string verdict(const ControllerComparison& r) {
     const Combination* best = nullptr;
     bool significant = true;
     for (const Combination* c : group) {
-      if (!c->excess_over_best && metric(*c, "steady_rms_px")) best = c;
+      if (!c->excess_over_best && metric_of(*c, "steady_rms_px")) best = c;
       if (c->excess_over_best && c->excess_over_best->ci95[0] <= 0) significant = false;
     }
     if (!best || group.size() < 2) continue;
-    const MeanOverSeeds& least = *metric(*best, "steady_rms_px");
+    const MeanOverSeeds& least = *metric_of(*best, "steady_rms_px");
     const std::string at =
         fmt::format("{} px rms{}", with_uncertainty(least.mean, least.mean - least.ci95[0], "±"),
                     significant ? "" : " (not significantly smaller than all others)");

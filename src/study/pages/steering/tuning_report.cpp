@@ -19,7 +19,7 @@ namespace faba {
 namespace {
 
 Json number(double v) { return std::isfinite(v) ? Json(v) : Json(); }
-Json mean_json(const MeanOverSeeds& m) {
+Json tuned_mean_json(const MeanOverSeeds& m) {
   return {{"mean", number(m.mean)},
           {"sd", number(m.sd)},
           {"ci95", {number(m.ci95[0]), number(m.ci95[1])}},
@@ -29,12 +29,12 @@ Json mean_json(const MeanOverSeeds& m) {
 Json point_json(const Tuning& t, const TunedPoint& p) {
   Json values = Json::object();
   for (std::size_t i = 0; i < p.value.size(); ++i) values[t.study.parameters[i].key] = p.value[i];
-  return {{"values", p.value.empty() ? Json() : values}, {"metric", mean_json(p.metric)}};
+  return {{"values", p.value.empty() ? Json() : values}, {"metric", tuned_mean_json(p.metric)}};
 }
 
 const TunedPoint& best_of(const Tuning& t) { return t.evaluated[t.best]; }
 
-std::string metric_text(const Tuning& t, const MeanOverSeeds& m) {
+std::string tuned_text(const Tuning& t, const MeanOverSeeds& m) {
   const MetricInfo& info = metric(t.study.metric);
   if (m.n == 0) return "undefined";
   return fmt::format("{} {}", with_uncertainty(m.mean * info.shown, (m.mean - m.ci95[0]) * info.shown, "±"),
@@ -89,7 +89,7 @@ std::string parameters_table(const Tuning& t) {
 
 std::string comparison_table(const Tuning& t) {
   const auto cells = [&](const char* name, const TunedPoint& training, const TunedPoint& held) {
-    return table_row({name, metric_text(t, training.metric), metric_text(t, held.metric)}, "td");
+    return table_row({name, tuned_text(t, training.metric), tuned_text(t, held.metric)}, "td");
   };
   return fmt::format("<h2>{}</h2>\n<table class=\"numbers\"><thead>",
                      escape_markup(metric(t.study.metric).name)) +
@@ -147,9 +147,9 @@ nlohmann::ordered_json tuning_json(const Tuning& t) {
          {"held_out",
           {{"seeds", t.study.held_out_seeds},
            {"first_seed", t.study.first_held_out},
-           {"given", mean_json(t.held_out_given.metric)},
-           {"tuned", mean_json(t.held_out_best.metric)},
-           {"difference", mean_json(t.held_out_difference)}}},
+           {"given", tuned_mean_json(t.held_out_given.metric)},
+           {"tuned", tuned_mean_json(t.held_out_best.metric)},
+           {"difference", tuned_mean_json(t.held_out_difference)}}},
          {"notes", tuning_notes(t)}};
   const std::vector<double>& best = best_of(t).value;
   for (std::size_t i = 0; i < t.study.parameters.size(); ++i) {
@@ -170,8 +170,8 @@ std::string tuning_page(const Tuning& t, const Provenance& provenance) {
   std::string out = fmt::format("<h1>{}</h1>\n", escape_markup(title));
   if (t.held_out_best.metric.n > 0)
     out += fmt::format("<p class=\"lead\">{} {} on the held-out seeds; {} with the given parameters{}.</p>\n",
-                       escape_markup(metric(t.study.metric).name), metric_text(t, t.held_out_best.metric),
-                       metric_text(t, t.held_out_given.metric),
+                       escape_markup(metric(t.study.metric).name), tuned_text(t, t.held_out_best.metric),
+                       tuned_text(t, t.held_out_given.metric),
                        d.n > 1 && d.ci95[1] < 0 ? "" : " (no significant difference)");
   out += parameters_table(t) + comparison_table(t) + "<h2>Figures</h2>\n<div class=\"figures\">\n";
   int figure_number = 0;
