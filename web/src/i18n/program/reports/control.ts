@@ -16,7 +16,8 @@ export const control: Record<string, string> = {
   'Mean in a forbidden region': 'Média em uma região proibida', 'Cells in a forbidden region': 'Células em uma região proibida', 'fraction of the frames': 'fração dos quadros', 'mean fraction': 'fração média',
   'Settling time, s': 'Tempo de acomodação, s', 'Steady-state error, px': 'Erro em regime permanente, px', 'Largest distance, px': 'Maior distância, px', 'Cross-track error, 95 %, px': 'Erro transversal, 95 %, px', 'RMS radius, px': 'Raio RMS, px',
   'Control effort, A² s': 'Esforço de controle, A² s', 'Heat of the coils, W': 'Calor das bobinas, W', 'Limited, %': 'Limitado, %', 'Mean in a forbidden region, %': 'Média em uma região proibida, %', 'Cells in a forbidden region, %': 'Células em uma região proibida, %',
-  'IAE, px s': 'IAE, px s',
+  'IAE, px s': 'IAE, px s', 'Steady-state error (px)': 'Erro em regime permanente (px)', 'Settling time (s)': 'Tempo de acomodação (s)', 'Largest distance (px)': 'Maior distância (px)', 'Cross-track error, 95 % (px)': 'Erro transversal, 95 % (px)',
+  'RMS radius (px)': 'Raio RMS (px)', 'Control effort (A² s)': 'Esforço de controle (A² s)', 'Heat of the coils (W)': 'Calor das bobinas (W)', '{} {#} ± {#} px': '{} {} ± {} px', '{} {#} ± {#} s': '{} {} ± {} s',
   // Tuning.
   'Tuning of {}': 'Sintonia de {}', '{} on the held-out seeds; {} with the given parameters.': '{} nas sementes reservadas; {} com os parâmetros informados.',
   '{} on the held-out seeds; {} with the given parameters (no significant difference).': '{} nas sementes reservadas; {} com os parâmetros informados (sem diferença significativa).',
