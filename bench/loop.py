@@ -53,12 +53,12 @@ print(*(late[min(len(late) - 1, int(q * len(late)))] for q in (0.5, 0.99, 0.999,
 """
 
 
-def latency(program, folder, seconds):
-    """Rows of the latency table, with both videos recorded. The last row is the wake-up latency of a thread on this machine that sleeps for
+def latency(program, folder, seconds, *settings):
+    """Rows of the latency table, with both videos recorded, with these settings of the scenario. The last row is the wake-up latency of a thread on this machine that sleeps for
     1 ms: a lower limit for every program."""
     wake = subprocess.Popen([sys.executable, "-c", WAKE, str(seconds)], stdout=subprocess.PIPE, text=True)
     run = faba(program, "rig", "run", "scenes/bench.toml", "--arm", "--seed", 1, "--duration", f"{seconds} s", "--set", "record.lossless=true",
-               "--out", folder / "latency")
+               *(word for s in settings for word in ("--set", s)), "--out", folder / "latency")
     rows = []
     for what, key, goals in (("from mid-exposure to the arrival of the picture", "arrival_ms", None),
                              ("from the arrival of the picture to the command", "command_ms", (5, FRAME_MS))):

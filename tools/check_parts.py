@@ -64,8 +64,8 @@ OTHER_MEANINGS = (
     ("map", "the verb", "src/cli/verbs/field/map.cpp src/server/jobs/job_kinds.cpp"),
     ("mean", "the average, as a JSON key, a parameter or a heading",
      "src/app/bench/live_picture.cpp src/cli/verbs/compare.cpp src/study/identify/free_parameter.cpp "
-     "src/study/pages/compare_report.cpp src/study/pages/controller_report.cpp src/study/pages/identify_report.cpp "
-     "src/study/pages/tracks/track_json.cpp src/study/pages/calibration/calibration_json.cpp src/study/pages/tuning_report.cpp web/src/i18n/analyse.ts"),
+     "src/study/pages/compare_report.cpp src/study/pages/steering/controller_report.cpp src/study/pages/identify_report.cpp "
+     "src/study/pages/tracks/track_json.cpp src/study/pages/calibration/calibration_json.cpp src/study/pages/steering/tuning_report.cpp web/src/i18n/analyse.ts"),
     ("dipole", "a word of a translated message", "web/src/i18n/program/refusals/coils.ts"),
     ("lqr", "advice in a translated message", "web/src/i18n/program/refusals/studies.ts"),
     ("none", "advice in a translated message", "web/src/i18n/program/refusals/scenario.ts"),

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -112,7 +114,9 @@ Schema<Compact::Params> Compact::schema() {
       .include(&Params::rotation, RotationParams::schema())
       .include(&Params::motion, MotionParams::schema())
       .check([](const Params& p) -> std::string {
-        return p.spread_px <= p.compact_px ? "spread_px must be larger than compact_px" : "";
+        if (p.spread_px > p.compact_px) return {};
+        return fmt::format("spread_px = {:g} must be larger than compact_px = {:g}", p.spread_px,
+                           p.compact_px);
       })
       .validity(
           "A uniform field without walls cannot make a swarm smaller (F1). The transport by the field "

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "control/plan/plan.h"
 #include "core/archive.h"
 #include "core/frame.h"
 #include "core/registry.h"
@@ -53,6 +54,9 @@ class Controller {
   virtual double max_field() const { return std::numeric_limits<double>::infinity(); }
   /// The sets of coil currents that its parameters give directly, A; one current per coil.
   virtual std::vector<std::vector<double>> given_currents() const { return {}; }
+  /// The plan of the last update, for display. Empty for a controller that does not predict, before its first
+  /// update, and if the last command does not follow from a plan.
+  virtual std::optional<Plan> plan() const { return std::nullopt; }
   /// The linear design of its gains, for one axis; null if it has none.
   virtual const LqrDesign* design() const { return nullptr; }
 };

@@ -45,6 +45,7 @@ class Mpc final : public Controller {
   Mpc(const Params& p, const ControlContext& c);
   Command update(const Estimate& e, const Target& target, double dt) override;
   double max_field() const override { return steering_.max_field(); }
+  std::optional<Plan> plan() const override;
   void archive(Archive& a) override;
 
  private:
@@ -52,6 +53,7 @@ class Mpc final : public Controller {
   void add_errors(PlanProgram& program, const Horizon& h, const std::vector<Vec2>& to) const;
   /// A place limit: the swarm may move by `room` (m) along `direction`.
   struct Edge {
+    PlanLimit limit;
     Vec2 direction;
     double room = 0;
   };
@@ -74,6 +76,9 @@ class Mpc final : public Controller {
   std::vector<double> current_;  ///< A, of the last command
   int frames_ = 0;               ///< since the first plan
   double excess_ = 0;            ///< J, heat so far above the largest mean heat
+  /// Where the plan begins; empty if the last command does not follow from a plan.
+  std::optional<MeanState> begin_;
+  std::vector<PlanLimit> active_;  ///< limits of the plan
 };
 
 Schema<Mpc::Obstacle> Mpc::Obstacle::schema() {
@@ -218,19 +223,19 @@ std::vector<Mpc::Edge> Mpc::edges_near(Vec2 at) const {
   const double margin = p_.margin_px * c_.scale.m_per_px, clearance = p_.clearance_px * c_.scale.m_per_px;
   const Vec2 a = c_.frame.world_from_image({0, 0});
   const Vec2 b = c_.frame.world_from_image({double(c_.frame.width - 1), double(c_.frame.height - 1)});
-  std::vector<Edge> edges{{{1, 0}, std::max(a.x, b.x) - at.x - margin},
-                          {{-1, 0}, at.x - std::min(a.x, b.x) - margin},
-                          {{0, 1}, std::max(a.y, b.y) - at.y - margin},
-                          {{0, -1}, at.y - std::min(a.y, b.y) - margin}};
+  std::vector<Edge> edges{{PlanLimit::view, {1, 0}, std::max(a.x, b.x) - at.x - margin},
+                          {PlanLimit::view, {-1, 0}, at.x - std::min(a.x, b.x) - margin},
+                          {PlanLimit::view, {0, 1}, std::max(a.y, b.y) - at.y - margin},
+                          {PlanLimit::view, {0, -1}, at.y - std::min(a.y, b.y) - margin}};
   if (c_.drop) {
     const Vec2 out = at - c_.drop->centre;
     const double distance = norm(out);
     if (distance > c_.drop->radius / 2)
-      edges.push_back({(1 / distance) * out, c_.drop->radius - margin - distance});
+      edges.push_back({PlanLimit::drop, (1 / distance) * out, c_.drop->radius - margin - distance});
   }
   for (const Polygon& polygon : obstacles_) {
     const NearestEdge edge = nearest_edge(polygon, at);
-    edges.push_back({-1.0 * edge.outward, edge.distance - clearance});
+    edges.push_back({PlanLimit::obstacle, -1.0 * edge.outward, edge.distance - clearance});
   }
   return edges;
 }
@@ -285,8 +290,8 @@ Vec2 Mpc::planned(const MeanState& s, Vec2 to) {
   program.limit(coil_limits(s.position));
   for (std::size_t j = 1; j < h.states.size(); ++j)
     for (const Edge& edge : edges_near(h.states[j].position))
-      program.keep(h.by_command[j].topRows(2), edge.direction, edge.room, p_.error_px * c_.scale.m_per_px,
-                   kPlaceWeight);
+      program.keep(edge.limit, h.by_command[j].topRows(2), edge.direction, edge.room,
+                   p_.error_px * c_.scale.m_per_px, kPlaceWeight);
   solution_ = solve(program.take(), solution_);
   if (!solution_.converged || !solution_.x.allFinite()) {
     solution_ = {};
@@ -297,6 +302,8 @@ Vec2 Mpc::planned(const MeanState& s, Vec2 to) {
   for (Eigen::Index i = 0; i < solution_.x.size(); i += 2)
     solution.push_back({solution_.x[i], solution_.x[i + 1]});
   move_towards(solution, s, at);
+  begin_ = s;
+  active_ = program.active(solution_);
   return plan_.front();
 }
 
@@ -322,8 +329,18 @@ void Mpc::keep_limits(Command& command) const {
   }
 }
 
+std::optional<Plan> Mpc::plan() const {
+  if (!begin_) return std::nullopt;
+  Plan plan{.path = {}, .step = move_time(), .active = active_};
+  for (const MeanState& s :
+       expected_states(steering_.plant(), *begin_, plan_, steering_.strongest(), move_time()))
+    plan.path.push_back(s.position);
+  return plan;
+}
+
 Command Mpc::update(const Estimate& e, const Target& target, double dt) {
   count_heat(dt);
+  begin_.reset();
   const MeanState s = steering_.at_command(e);
   Command command;
   if (e.visible > 0 && std::isfinite(norm(s.position - target.position)) && std::isfinite(norm(s.velocity)))

@@ -15,9 +15,9 @@ constexpr std::size_t kPoints = 100;  // at least, so that the setpoints are tho
 /// swarm. Until the swarm has come within the look-ahead distance of the start, the setpoint is the start.
 class ReferencePath final : public Reference {
  public:
-  enum class Shape { points, figure_eight, circle, text };
+  enum class Shape { figure_eight, circle, text };
   struct Params {
-    Shape shape = Shape::points;
+    Shape shape = Shape::figure_eight;
     std::vector<Vec2> points_px;
     bool smooth = true, closed = false;
     std::optional<Vec2> centre_px;
@@ -45,13 +45,14 @@ class ReferencePath final : public Reference {
 Schema<ReferencePath::Params> ReferencePath::schema() {
   return Schema<Params>("path", "A setpoint that moves along a curve ahead of the swarm")
       .add("shape", &Params::shape,
-           {.doc = "points: through points_px; the others have a size and a centre",
-            .choices = {"points", "figure_eight", "circle", "text"}})
+           {.doc = "Curve of size_px around centre_px, unless points_px are given",
+            .choices = {"figure_eight", "circle", "text"}})
       .add("points_px", &Params::points_px,
            {.unit = "px",
             .min = -1e5,
             .max = 1e5,
-            .doc = "Points of the curve in image coordinates, y down: [[100, 120], [300, 200]]"})
+            .doc = "Points of the curve in image coordinates, y down, instead of a shape: [[100, 120], [300, "
+                   "200]]"})
       .add("smooth", &Params::smooth,
            {.doc = "A smooth curve through points_px (Catmull-Rom spline); false: straight segments"})
       .add("closed", &Params::closed, {.doc = "The curve through points_px returns to its first point"})
@@ -59,9 +60,9 @@ Schema<ReferencePath::Params> ReferencePath::schema() {
            {.unit = "px",
             .min = -1e5,
             .max = 1e5,
-            .doc = "Centre of the other shapes in image coordinates; default: the centre of the arena"})
+            .doc = "Centre of the shape in image coordinates; default: the centre of the arena"})
       .add("size_px", &Params::size_px,
-           {.unit = "px", .min = 1, .max = 1e5, .doc = "Width of the other shapes"})
+           {.unit = "px", .min = 1, .max = 1e5, .doc = "Width of the shape"})
       .add("text", &Params::text, {.doc = "Text that is written: letters, digits, spaces and hyphens"})
       .add("look_ahead_px", &Params::look_ahead_px,
            {.unit = "px",
@@ -75,9 +76,8 @@ Schema<ReferencePath::Params> ReferencePath::schema() {
       .add("laps", &Params::laps,
            {.min = 1, .max = 1000, .doc = "Times that the curve is followed; more than 1: back to its start"})
       .check([](const Params& p) -> std::string {
-        if (p.shape == Shape::points && p.points_px.size() < 2)
-          return "points_px needs at least two points, such as [[100, 120], [300, 200]]; or choose another "
-                 "`shape`";
+        if (p.points_px.size() == 1)
+          return "points_px has 1 point; a curve needs at least two points, such as [[100, 120], [300, 200]]";
         if (p.shape == Shape::text && text_outline(p.text, {}, 1).size() < 2)
           return "text \"" + p.text + "\" has no letter or digit; write a text such as \"FABA\"";
         return "";
@@ -109,13 +109,13 @@ std::vector<Vec2> in_world(const std::vector<Vec2>& image, const Frame& frame, i
 
 std::vector<Vec2> ReferencePath::curve_px(const Params& p, const Frame& frame) const {
   const Vec2 centre = p.centre_px.value_or(frame.centre_image);
+  if (!p.points_px.empty()) {
+    if (p.smooth) return spline_through(p.points_px, p.closed, kStepPx);
+    std::vector<Vec2> all = p.points_px;
+    if (p.closed) all.push_back(all.front());
+    return all;
+  }
   switch (p.shape) {
-    case Shape::points: {
-      if (p.smooth) return spline_through(p.points_px, p.closed, kStepPx);
-      std::vector<Vec2> all = p.points_px;
-      if (p.closed) all.push_back(all.front());
-      return all;
-    }
     case Shape::figure_eight:
       return figure_eight(centre, p.size_px, kStepPx);
     case Shape::circle:

@@ -8,7 +8,7 @@
 #include "python/convert.h"
 #include "python/reported_progress.h"
 #include "python/simulation.h"
-#include "study/pages/controller_report.h"
+#include "study/pages/steering/controller_report.h"
 #include "study/steering/controller_study.h"
 #include "study/steering/metric_list.h"
 #include "study/steering/trial.h"

@@ -22,7 +22,15 @@ constexpr std::size_t kMostGridSwarms =
     8;                               // 16 bits for two planes each; the page repeats its colours earlier
 constexpr int kDensitySquares = 64;  // along the longer side of the box
 
-enum Bit : std::uint16_t { kCells = 1, kFloats = 2, kHeadings = 4, kPicture = 8, kSites = 16 };
+enum Bit : std::uint16_t {
+  kCells = 1,
+  kFloats = 2,
+  kHeadings = 4,
+  kPicture = 8,
+  kSites = 16,
+  kEstimate = 32,
+  kPlan = 64
+};
 
 template <class T>
 void put(std::string& out, T v) {
@@ -127,6 +135,35 @@ void put_sites(std::string& out, const FrameMessage& m, const SquareGrid& sites)
   put_all(out, std::span<const std::uint32_t>(counts));
 }
 
+void put_position(std::string& out, const FrameMessage& m, Vec2 world) {
+  const Vec2 px = m.view.image_from_world(world);
+  put(out, float(px.x));
+  put(out, float(px.y));
+}
+
+// Whether the estimate has the covariance of the error of its centroid.
+bool has_error(const Estimate* e) {
+  if (!e || !(e->visible > 0)) return false;
+  const Mat2& c = e->centroid_cov;
+  return c.xx + c.yy > 0 && std::isfinite(c.xx + c.xy + c.yy + norm(e->centroid));
+}
+
+// Image axes: y down.
+void put_estimate(std::string& out, const FrameMessage& m) {
+  const double px2 = 1 / (m.view.m_per_px * m.view.m_per_px);
+  const Mat2& c = m.estimate->centroid_cov;
+  put(out, std::uint32_t(m.estimate->predicted));
+  put_position(out, m, m.estimate->centroid);
+  for (const double v : {c.xx, -c.xy, c.yy}) put(out, float(v * px2));
+}
+
+void put_plan(std::string& out, const FrameMessage& m) {
+  put(out, std::uint16_t(m.path.size()));
+  put(out, m.limits);
+  put(out, float(m.path_step));
+  for (const Vec2 p : m.path) put_position(out, m, p);
+}
+
 }  // namespace
 
 bool quantised(const PictureBox& box) {
@@ -143,7 +180,8 @@ std::string encode_frame(const FrameMessage& m) {
   out += "FABA";
   put(out, std::uint16_t(1));
   put(out, std::uint16_t(kCells | (floats ? kFloats : 0) | (headings ? kHeadings : 0) |
-                         (m.picture.empty() ? 0 : kPicture) | (gridded ? kSites : 0)));
+                         (m.picture.empty() ? 0 : kPicture) | (gridded ? kSites : 0) |
+                         (has_error(m.estimate) ? kEstimate : 0) | (m.path.empty() ? 0 : kPlan)));
   put(out, m.run);
   put(out, std::uint32_t(n));
   put(out, std::uint32_t(m.rows.size() / m.columns));
@@ -162,6 +200,8 @@ std::string encode_frame(const FrameMessage& m) {
   else
     put_cells(out, m, floats, headings);
   put_all(out, m.picture);
+  if (has_error(m.estimate)) put_estimate(out, m);
+  if (!m.path.empty()) put_plan(out, m);
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/frame.h"
+#include "core/signals.h"
 
 namespace faba {
 
@@ -33,6 +34,10 @@ struct FrameMessage {
   std::span<const float> field;               ///< T, x and y components at every point, image axes
   int picture_columns = 0, picture_rows = 0;  ///< size of `picture`
   std::span<const std::uint8_t> picture;      ///< grey values of the camera image; empty: none
+  const Estimate* estimate = nullptr;         ///< in the message if the error of its centroid is known
+  std::span<const Vec2> path;                 ///< m, world, of the plan of the controller; empty: no plan
+  double path_step = 0;                       ///< s, between two positions of the path
+  std::uint16_t limits = 0;                   ///< a bit for each active limit of the plan
 };
 
 /// True if 16-bit coordinates resolve the box in steps of at most 0.1 px.

@@ -45,6 +45,7 @@ ShownRun::ShownRun(const Document& d, std::uint64_t seed, const Parts& parts, Po
 }
 
 void ShownRun::take(const Tick& t) {
+  estimate = t.estimate;
   std::vector<double> v = row.values(t);
   const double now = live.simulation().rig().time_of(t.index);
   v.push_back(mean_speed(now - time) * 1e6);
@@ -90,6 +91,13 @@ std::shared_ptr<const std::string> ShownRun::message(std::uint32_t run, bool cam
   }
   m.ends = ends;
   m.sites = sites;
+  m.estimate = &estimate;
+  const auto plan = s.controller().plan();
+  if (plan) {
+    m.path = plan->path;
+    m.path_step = plan->step;
+    for (const auto limit : plan->active) m.limits = std::uint16_t(m.limits | (1U << unsigned(limit)));
+  }
   m.rows = rows;
   m.columns = columns.size();
   const std::size_t n = field_x.size();

@@ -25,6 +25,7 @@ struct ShownRun final : Sink {
   SeriesRow row;
   std::vector<std::string> columns;
   std::vector<double> rows;  ///< the newest kRows rows
+  Estimate estimate;         ///< of the newest frame
   RowHistory history;        ///< for pages that connect later
   double time = 0;
   std::vector<float> before_x, before_y;  ///< m, positions in the previous frame

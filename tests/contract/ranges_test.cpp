@@ -30,8 +30,8 @@ const std::vector<Refused> kRefused{
     {"field thick_coil outer_radius minimum", "outer_radius must be larger than inner_radius"},
     {"controller fuzzy near_px maximum", "must not be larger than far_px"},
     {"controller fuzzy far_px minimum", "must not be larger than far_px"},
-    {"controller compact compact_px maximum", "spread_px must be larger than compact_px"},
-    {"controller compact spread_px minimum", "spread_px must be larger than compact_px"},
+    {"controller compact compact_px maximum", "must be larger than compact_px"},
+    {"controller compact spread_px minimum", "must be larger than compact_px"},
 };
 
 /// The key of a number in the tables of this file: a coil of a coil system has the rules of the coil part.
@@ -51,7 +51,6 @@ Json beside(const std::string& table) {
       {"field map", {{"expansion", {{"coefficients", {0, 0, 0}}}}}},
       {"field map expansion", {{"coefficients", {0, 0, 0}}}},
       {"reference route", {{"setpoints_px", {{100, 120}}}}},
-      {"reference path", {{"points_px", {{100, 120}, {300, 200}}}}},
       {"controller mpc obstacle", {{"corners_px", {{0, 0}, {9, 0}, {0, 9}}}}},
       {"controller fuzzy set", {{"trapezoid_px", {0, 0, 1, 1}}}},
       {"camera playback", {{"file", "a video"}}},
@@ -64,8 +63,8 @@ Json beside(const std::string& table) {
 std::size_t count_of(const std::string& key, const Json& schema) {
   if (key.ends_with(".coefficients")) return 3;
   if (key.ends_with(".trapezoid_px")) return 4;
-  if (key == "reference path points_px" && schema["items"].contains("items")) return 2;
   if (key.ends_with(".corners_px") && schema["items"].contains("items")) return 3;
+  if (key == "reference path points_px" && schema["items"].contains("items")) return 2;
   return schema.value("minItems", std::size_t{1});
 }
 

@@ -150,3 +150,72 @@ TEST_CASE("mpc: a checkpoint continues with the same commands") {
     s = advanced(c.motion, 1, s, field_along(c, s.position, a), kPeriod);
   }
 }
+
+TEST_CASE("mpc: the plan begins at the swarm and follows the plant") {
+  const ControlContext c = context(kDipole);
+  const auto mpc = controller("type = 'mpc'\nmoves = 10\nmove_frames = 2", c);
+  CHECK(!mpc->plan());
+  const MeanState s{{-100e-6, 20e-6}, {30e-6, 5e-6}};
+  const Command command = mpc->update(at(s), {}, kPeriod);
+  const auto plan = mpc->plan();
+  REQUIRE(plan);
+  CHECK(plan->step == doctest::Approx(2 * kPeriod));
+  REQUIRE(plan->path.size() == 11);
+  CHECK(norm(plan->path[0] - s.position) < 1e-12);
+  const Vec2 expected = advanced(c.motion, 1, s, field_along(c, s.position, command), 2 * kPeriod).position;
+  REQUIRE(norm(expected - s.position) > 1e-6);
+  CHECK(norm(plan->path[1] - expected) < 1e-9);
+  // The path approaches the setpoint.
+  CHECK(norm(plan->path.back()) < norm(plan->path.front()));
+
+  Estimate lost = at(s);
+  lost.visible = 0;
+  mpc->update(lost, {}, kPeriod);
+  CHECK(!mpc->plan());
+  const auto regulator = controller("type = 'lqr'", c);
+  regulator->update(at(s), {}, kPeriod);
+  CHECK(!regulator->plan());
+}
+
+TEST_CASE("mpc: the plan names the limits that are active, and no others") {
+  std::string rig = "[f]\ntype = 'rig'\n";
+  for (const int angle : {0, 90, 180, 270})
+    rig += reference_coils("f.coil", {double(angle)}) + "resistance = 5\n";
+  using Limits = std::vector<PlanLimit>;
+  const auto active = [](const std::string& toml, const ControlContext& c, Vec2 from) {
+    const auto mpc = controller("type = 'mpc'\nmove_frames = 1\n" + toml, c);
+    mpc->update(at({from, {}}), {}, kPeriod);
+    REQUIRE(mpc->plan());
+    return mpc->plan()->active;
+  };
+  ControlContext c = context(kBasic, rig);
+  c.max_current.assign(4, 2);
+  const Vec2 far{-10e-6, 0}, near{-0.05e-6, 0};
+  CHECK(active("", c, near) == Limits{});
+  CHECK(active("", c, far) == Limits{PlanLimit::output});
+  ControlContext weak = c;
+  weak.max_current.assign(4, 0.01);
+  CHECK(active("", weak, near) == Limits{});
+  CHECK(active("", weak, far) == Limits{PlanLimit::current});
+  ControlContext slow = c;
+  slow.max_slew = 1;
+  CHECK(active("", slow, near) == Limits{});
+  CHECK(active("", slow, {-1e-6, 0}) == Limits{PlanLimit::slew});
+  CHECK(active("max_heat = '0.1 mW'", c, far) == Limits{PlanLimit::heat});
+  CHECK(active("max_heat = '0.1 mW'", c, near) == Limits{});
+
+  const ControlContext free = context(kBasic);  // moves at once: the setpoint is at the edge of the view
+  const auto mpc = controller("type = 'mpc'\nmargin_px = 20", free);
+  mpc->update(at({{300e-6, 0}, {}}), {{318e-6, 0}, 0, false}, kPeriod);
+  REQUIRE(mpc->plan());
+  CHECK(mpc->plan()->active == Limits{PlanLimit::view});
+  ControlContext inside = free;
+  inside.drop = Disc{{}, 200e-6};
+  const auto drop = controller("type = 'mpc'\nmargin_px = 20", inside);
+  drop->update(at({{180e-6, 0}, {}}), {{190e-6, 0}, 0, false}, kPeriod);
+  CHECK(drop->plan()->active == Limits{PlanLimit::drop});
+  const auto wall = controller(
+      "type = 'mpc'\n[[p.obstacle]]\ncorners_px = [[330, 200], [400, 200], [400, 280], [330, 280]]", free);
+  wall->update(at({{1e-6, 0}, {}}), {{4e-6, 0}, 0, false}, kPeriod);
+  CHECK(wall->plan()->active == Limits{PlanLimit::obstacle});
+}

@@ -88,7 +88,6 @@ TEST_CASE("path: without cells the setpoint stays; a checkpoint restores it; wro
   b->archive(in);
   CHECK(b->update(at({170, 170})).position == a->update(at({170, 170})).position);
 
-  CHECK_THROWS_AS(path(""), Error);
   CHECK_THROWS_AS(path("points_px = [[100, 100]]"), Error);
   CHECK_THROWS_AS(path("shape = 'text'\ntext = ''"), Error);
   CHECK_THROWS_AS(path("shape = 'text'\ntext = 'a?'"), Error);

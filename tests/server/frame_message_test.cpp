@@ -159,3 +159,37 @@ TEST_CASE("an occupancy grid has the site of every cell, and the number of cells
   CHECK(at<std::uint16_t>(all, grid + 6) == 0b0101);
   CHECK(all.size() == planes + 2 * bytes + std::size_t(dc * dr) * 4);
 }
+
+TEST_CASE("a frame message has the estimate and the plan at its end, if they are known") {
+  const Swarm s(11, 2.9e-4, 1.9e-4);
+  const std::vector<double> rows = {1, 2, 3};
+  const std::vector<float> field = {1e-4F, 0, 2e-4F, -1e-4F};
+  FrameMessage m = message(s, rows, field);
+  const std::size_t plain = encode_frame(m).size();
+  Estimate e;
+  e.centroid = {20e-6, 10e-6};
+  e.visible = 11;
+  m.estimate = &e;
+  CHECK(encode_frame(m).size() == plain);  // the error is not known
+  e.centroid_cov = {4e-12, 1e-12, 8e-12};
+  e.predicted = true;
+  const std::vector<Vec2> path_m = {{0, 0}, {20e-6, -40e-6}};
+  m.path = path_m;
+  m.path_step = 0.25;
+  m.limits = 2 | 64;
+  const std::string b = encode_frame(m);
+  CHECK(at<std::uint16_t>(b, 6) == (1 | 4 | 32 | 64));
+  REQUIRE(b.size() == plain + 24 + 8 + 16);
+  CHECK(at<std::uint32_t>(b, plain) == 1);
+  const float estimate[] = {109.5F, 44.5F, 1.0F, -0.25F, 2.0F};  // px and px^2 of 2 um, y down
+  for (std::size_t k = 0; k < 5; ++k) CHECK(at<float>(b, plain + 4 + 4 * k) == doctest::Approx(estimate[k]));
+  CHECK(at<std::uint16_t>(b, plain + 24) == 2);
+  CHECK(at<std::uint16_t>(b, plain + 26) == (2 | 64));
+  CHECK(at<float>(b, plain + 28) == 0.25F);
+  const float path[] = {99.5F, 49.5F, 109.5F, 69.5F};
+  for (std::size_t k = 0; k < 4; ++k) CHECK(at<float>(b, plain + 32 + 4 * k) == doctest::Approx(path[k]));
+
+  e.visible = 0;
+  m.path = {};
+  CHECK(encode_frame(m).size() == plain);
+}

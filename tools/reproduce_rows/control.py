@@ -1,4 +1,4 @@
-"""Controllers: Figs 3.15 to 3.19 and 4.17 to 4.20, route of setpoints."""
+"""Controllers: Figs 3.15 to 3.19 and 4.17 to 4.20, route of setpoints, later controllers."""
 
 import math
 
@@ -266,7 +266,7 @@ def distance(lab, found):
 
 
 def both(heading, label, column, runs, caption):
-    layers = [("line", name.capitalize(), np.arange(400), np.mean([s[column][:400] for s in of], axis=0)) for name, of in runs.items()]
+    layers = [("line", name if name in LATER else name.capitalize(), np.arange(400), np.mean([s[column][:400] for s in of], axis=0)) for name, of in runs.items()]
     return plot.plot(heading, "iteration", label, layers, caption)
 
 
@@ -350,3 +350,41 @@ def route(lab, found):
         read.figure(step.folder / "report.html", "Distance to the setpoint"),
     )
     found.show(frames(step, "Along the route"))
+
+
+# No estimator that predicts: the camera of the experiment has no delay.
+LATER = {"fuzzy": (), "lqr": ('controller={type="lqr"}',), "mpc": ('controller={type="mpc"}',)}
+
+
+def beyond(lab, found):
+    runs = {
+        (name, model): seeds(lab, f"{model.lower()}-seed" if name == "fuzzy" else f"{model.lower()}-{name}", scene, *settings)
+        for name, settings in LATER.items()
+        for model, scene in (("Basic", BASIC), ("Adapted", ADAPTED))
+    }
+    rms = {key: [steady(s) for s in of] for key, of in runs.items()}
+    found.value = "steady-state distance: " + "; ".join(
+        f"{model} {', '.join(f'{name} {np.mean(rms[name, model]):.2f}' for name in LATER)} px rms" for model in ("Basic", "Adapted")
+    )
+    for name in ("lqr", "mpc"):
+        change, low, high = stats.mean_ci95(np.subtract(rms[name, "Basic"], rms["fuzzy", "Basic"]))
+        found.within(
+            f"Basic: distance with {name} minus that with fuzzy, upper limit of the 95 % interval",
+            high,
+            None,
+            0,
+            "significantly smaller if the interval of the paired difference is below zero",
+            "px",
+        )
+        worse, low, high = stats.mean_ci95(np.subtract(rms[name, "Adapted"], rms["fuzzy", "Adapted"]))
+        found.note.append(f"Adapted: {name} minus fuzzy {worse:+.1f} [{low:.1f}, {high:.1f}] px.")
+    found.note.append(
+        "Cells of Adapted keep their velocity for two iterations and swim at their own speed in any field, so that every controller makes"
+        " them cross the setpoint. No controller reduces the dispersion."
+    )
+    for model in ("Basic", "Adapted"):
+        curves = {name: runs[name, model] for name in LATER}
+        found.show(
+            both(f"Distance to the setpoint, {model}", "distance (px)", "distance_px", curves, "Means of ten seeds."),
+            both(f"Dispersion, {model}", "rms radius (px)", "true_rms_radius_px", curves, "Means of ten seeds."),
+        )

@@ -136,6 +136,10 @@ ROWS = [
         control.dispersion, 4),
     Row("4.4.0.1", "A route of setpoints", "The swarm follows a list of setpoints", SAME,
         "The swarm reaches all setpoints. The criterion for switching to the next setpoint is assumed.", control.route, 4),
+    Row("beyond", "The fuzzy controller against later ones, on the experiment of Figs 4.18 to 4.20", "Future work: better controllers", SAME,
+        "The regulator and model predictive control hold Basic four times as near; none of them holds Adapted nearer, whose speed no "
+        "field changes.",
+        control.beyond, 8),
     Row("4.1, 4.2", "Loss of response with air exposure time", "About 11 min; videos after 700 s are excluded", VIDEOS,
         "The rendered cells lose their response as observed in the thesis, and the cut-off is found from the videos alone.",
         exposure.cutoff, 1),

@@ -39,8 +39,9 @@ export class Changes {
   }
 }
 
-// Two values of one controller and of nothing else, such as the fields of a drag.
+// Two values of one controller and of nothing else, such as the fields of a drag; obstacles are drawn one by one.
 function sameController(a: Event, b: Event): boolean {
   const only = (e: Event) => (Object.keys(e).length === 1 ? typeOf(e.controller) : undefined);
-  return only(a) !== undefined && only(a) === only(b);
+  const obstacles = (e: Event) => JSON.stringify(e.controller.obstacle);
+  return only(a) !== undefined && only(a) === only(b) && obstacles(a) === obstacles(b);
 }

@@ -10,6 +10,27 @@ export interface Sites {
   counts: { columns: number; rows: number; cells: Uint32Array };
 }
 
+/** Names of the limits of a plan, in the order of their bits. */
+export const kPlanLimits = ['output', 'current', 'slew', 'heat', 'view', 'drop', 'obstacle'] as const;
+export type PlanLimit = (typeof kPlanLimits)[number];
+
+/** What the controller intends. */
+export interface Plan {
+  /** Predicted positions of the swarm, px, from the time at which the command acts to the horizon. */
+  path: [number, number][];
+  /** Time between two positions, s. */
+  step: number;
+  /** Limits without which the plan would be another. */
+  active: PlanLimit[];
+}
+/** Estimated centroid and the covariance of its error, px and px², image axes. */
+export interface CentroidEstimate {
+  at: [number, number];
+  cov: { xx: number; xy: number; yy: number };
+  /** Of the time at which the command acts; otherwise of the picture. */
+  predicted: boolean;
+}
+
 export interface Frame {
   run: number;
   frame: number;
@@ -26,6 +47,8 @@ export interface Frame {
   rowCount: number;
   field: { columns: number; rows: number; xy: Float32Array };
   picture: { width: number; height: number; grey: Uint8Array } | null;
+  estimate: CentroidEstimate | null;
+  plan: Plan | null;
   bytes: number;
 }
 
@@ -73,6 +96,8 @@ export function decodeFrame(buffer: ArrayBuffer, columns: number): Frame {
   const headings = bits & 4 ? new Uint8Array(buffer, take(listed), listed) : null;
   const responding = new Uint8Array(buffer, take(Math.ceil(listed / 8)), Math.ceil(listed / 8));
   const picture = bits & 8 ? { width, height, grey: new Uint8Array(buffer, take(width * height), width * height) } : null;
+  const estimate = bits & 32 ? takeEstimate(buffer, take) : null;
+  const plan = bits & 64 ? takePlan(buffer, take) : null;
   if (at !== buffer.byteLength) throw new Error(`The frame has ${buffer.byteLength} bytes; its header gives ${at}.`);
   return {
     run: v.getUint32(8, true),
@@ -80,12 +105,29 @@ export function decodeFrame(buffer: ArrayBuffer, columns: number): Frame {
     t: v.getFloat64(40, true),
     cells, xy, headings, responding, sites, rows, rowCount,
     field: { columns: gx, rows: gy, xy: field },
-    picture,
+    picture, estimate, plan,
     bytes: buffer.byteLength,
   };
 }
 
-function takeSites(buffer: ArrayBuffer, take: (bytes: number) => number, { columns, rows }: { columns: number; rows: number }): Sites {
+type Take = (bytes: number) => number;
+
+function takeEstimate(buffer: ArrayBuffer, take: Take): CentroidEstimate {
+  const v = new DataView(buffer, take(24), 24), [x, y, xx, xy, yy] = [4, 8, 12, 16, 20].map((k) => v.getFloat32(k, true));
+  return { at: [x, y], cov: { xx, xy, yy }, predicted: v.getUint32(0, true) !== 0 };
+}
+
+function takePlan(buffer: ArrayBuffer, take: Take): Plan {
+  const head = new DataView(buffer, take(8), 8), points = head.getUint16(0, true), bits = head.getUint16(2, true);
+  const v = new DataView(buffer, take(8 * points), 8 * points);
+  return {
+    path: Array.from({ length: points }, (_, i) => [v.getFloat32(8 * i, true), v.getFloat32(8 * i + 4, true)]),
+    step: head.getFloat32(4, true),
+    active: kPlanLimits.filter((_, k) => bits & (1 << k)),
+  };
+}
+
+function takeSites(buffer: ArrayBuffer, take: Take, { columns, rows }: { columns: number; rows: number }): Sites {
   const head = new DataView(buffer, take(8), 8), planes: Uint8Array[] = [], bytes = Math.ceil((columns * rows) / 8);
   // Planes without cells are not in the message.
   const present = head.getUint16(6, true);

@@ -38,11 +38,21 @@ export function hasTrait(section: Schema | undefined, value: any, trait: string)
   return section !== undefined && type !== undefined && matches(variant(section, type), { trait });
 }
 
+/** Whether a part of a section has a property. */
+export const hasProperty = (section: Schema | undefined, type: string | undefined, property: string) =>
+  section !== undefined && type !== undefined && matches(variant(section, type), { property });
+
 /** Whether a controller is open-loop: a schedule or manual control. */
 export const isOpenLoop = (schema: Schema | null, controller: any) => hasTrait(sectionOf(schema, 'controller'), controller, 'open_loop');
 
 /** The controller for manual control of the field. */
 export const handController = (schema: Schema | null) => findPart(sectionOf(schema, 'controller'), { trait: 'open_loop', property: 'field' });
+
+/** The controller that keeps the swarm away from obstacles. */
+export const obstacleController = (schema: Schema | null) => findPart(sectionOf(schema, 'controller'), { property: 'obstacle' });
+
+/** The reference with a curve through points. */
+export const curveReference = (schema: Schema | null) => findPart(sectionOf(schema, 'reference'), { property: 'points_px' });
 
 /** The reference with one setpoint. */
 export const setpointReference = (schema: Schema | null) => findPart(sectionOf(schema, 'reference'), { property: 'setpoint_px' });

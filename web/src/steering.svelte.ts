@@ -1,9 +1,10 @@
 // Manual control: field by pointer, keys and gamepad; setpoints and routes.
 
+import { Drawing } from './drawing.svelte';
 import { amount } from './form/schema';
 import type { Lab } from './lab.svelte';
 import type { Scene } from './view/overlay';
-import { defaultPart, handController, isOpenLoop, routeReference, sectionOf, setpointReference } from './part_traits';
+import { curveReference, defaultPart, handController, isOpenLoop, routeReference, sectionOf, setpointReference } from './part_traits';
 
 export const kWeakest = 5e-6, kStrongest = 5e-3; // T
 
@@ -31,10 +32,13 @@ export class Steering {
   unreachable = $state.raw<{ x: number; y: number } | null>(null);
   /** Controller and estimator before manual control. */
   private before: Record<string, any> | null = null;
+  readonly drawing: Drawing;
   private sending = false;
   private wanted: [number, number] | null = null;
 
-  constructor(private lab: Lab) {}
+  constructor(private lab: Lab) {
+    this.drawing = new Drawing(lab, this);
+  }
 
   /** Whether the present controller is open-loop, without feedback. */
   get byHand() {
@@ -94,6 +98,7 @@ export class Steering {
   begin() {
     this.direction = [0, 0];
     this.sketch = [];
+    this.drawing.begin();
     this.before = null;
     this.outside = this.unreachable = null;
   }
@@ -108,7 +113,7 @@ export class Steering {
   }
 
   /** Parts that replace manual control: those before it, or the default controller. */
-  private controller() {
+  feedback(): Record<string, any> {
     if (!this.byHand) return {};
     return this.before ?? { controller: { type: defaultPart(sectionOf(this.lab.schema, 'controller')) } };
   }
@@ -119,7 +124,7 @@ export class Steering {
     if (!this.accepts([setpoint_px])) return;
     this.direction = [0, 0];
     this.asked = at;
-    await this.lab.exchange({ ...this.controller(), reference: { type, setpoint_px } });
+    await this.lab.exchange({ ...this.feedback(), reference: { type, setpoint_px } });
     if (this.asked === at) this.asked = null;
   }
   point(at: [number, number], index: number | null) {
@@ -127,12 +132,13 @@ export class Steering {
     if (!this.accepts([q])) return;
     this.sketch = index === null ? [...this.sketch, q] : this.sketch.map((p, i) => (i === index ? q : p));
   }
-  async route() {
-    const type = routeReference(this.lab.schema);
-    if (type === undefined) return;
-    if (!this.accepts(this.sketch)) return;
-    const a = await this.lab.exchange({ ...this.controller(), reference: { type, setpoints_px: this.sketch } });
+  /** Sends the points of the editor, as separate setpoints or as one curve; returns whether the program accepted them. */
+  async route(asCurve = false): Promise<boolean> {
+    const type = asCurve ? curveReference(this.lab.schema) : routeReference(this.lab.schema);
+    if (type === undefined || !this.accepts(this.sketch)) return false;
+    const a = await this.lab.exchange({ ...this.feedback(), reference: { type, [asCurve ? 'points_px' : 'setpoints_px']: this.sketch } });
     if (a.ok) this.sketch = [];
+    return a.ok;
   }
 
   /** Undoes the newest change; the direction is then that of the manual field, or none. */

@@ -8,7 +8,7 @@
 #include "cli/provenance.h"
 #include "core/file.h"
 #include "core/toml.h"
-#include "study/pages/control_benchmark_report.h"
+#include "study/pages/steering/control_benchmark_report.h"
 #include "study/quality/rounded.h"
 #include "study/steering/metric_list.h"
 

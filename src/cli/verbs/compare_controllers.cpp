@@ -11,7 +11,7 @@
 #include "core/counted.h"
 #include "core/file.h"
 #include "core/toml.h"
-#include "study/pages/controller_report.h"
+#include "study/pages/steering/controller_report.h"
 #include "study/quality/rounded.h"
 #include "study/steering/controller_study.h"
 

@@ -10,7 +10,7 @@
 #include "cli/provenance.h"
 #include "core/file.h"
 #include "core/toml.h"
-#include "study/pages/tuning_report.h"
+#include "study/pages/steering/tuning_report.h"
 #include "study/quality/rounded.h"
 #include "study/steering/metric_list.h"
 #include "study/steering/tuning.h"

@@ -1,8 +1,14 @@
 #include "control/plan/plan_program.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace faba {
+namespace {
+
+constexpr double kActive = 1e-3;  // of a multiplier, relative to the gradient; the tolerance of the solver
+
+}  // namespace
 
 PlanProgram::PlanProgram(const std::vector<Vec2>& plan) : plan_(2 * Eigen::Index(plan.size())) {
   for (Eigen::Index i = 0; i < size() / 2; ++i) {
@@ -36,13 +42,18 @@ void PlanProgram::limit(const CoilLimits& c) {
   if (c.max_heat) limit_heat(c);
 }
 
+void PlanProgram::add(PlanLimit limit, QuadraticProgram::Block block) {
+  limits_.push_back({limit, block.first, block.count});
+  q_.blocks.push_back(std::move(block));
+}
+
 void PlanProgram::limit_commands() {
   for (Eigen::Index i = 0; i < size(); i += 2) {
     QuadraticProgram::Block disc;
     disc.first = row_count();
     disc.count = 2;
     disc.radius = 1;
-    q_.blocks.push_back(disc);
+    add(PlanLimit::output, disc);
     for (int axis = 0; axis < 2; ++axis) rows_.push_back(Eigen::RowVectorXd::Unit(size(), i + axis));
   }
 }
@@ -58,24 +69,24 @@ Eigen::RowVectorXd PlanProgram::current_row(const CoilLimits& c, std::size_t coi
 void PlanProgram::limit_coil(const CoilLimits& c, std::size_t coil) {
   const double most = c.max_current[coil], offset = c.offset[coil] / most;
   if (!(most > 0) || !std::isfinite(most)) return;
-  const auto add = [&](Eigen::RowVectorXd row, double low, double high) {
+  const auto keep_within = [&](PlanLimit limit, Eigen::RowVectorXd row, double low, double high) {
     QuadraticProgram::Block block;
     block.first = row_count();
     block.low = low;
     block.high = high;
-    q_.blocks.push_back(block);
+    add(limit, block);
     rows_.push_back(std::move(row));
   };
   const double reach = std::sqrt(c.x[coil] * c.x[coil] + c.y[coil] * c.y[coil]) / most + std::fabs(offset);
   for (Eigen::Index i = 0; i < size() / 2; ++i) {
-    if (reach > 1) add(current_row(c, coil, i, most), -1 - offset, 1 - offset);
+    if (reach > 1) keep_within(PlanLimit::current, current_row(c, coil, i, most), -1 - offset, 1 - offset);
     if (!c.max_slew) continue;
     const double change = *c.max_slew * (i == 0 ? c.first_time : c.move_time) / most;
     if (change >= 2 * reach) continue;
     const double before = i == 0 ? c.before[coil] / most - offset : 0;
     Eigen::RowVectorXd row = current_row(c, coil, i, most);
     if (i > 0) row -= current_row(c, coil, i - 1, most);
-    add(std::move(row), before - change, before + change);
+    keep_within(PlanLimit::slew, std::move(row), before - change, before + change);
   }
 }
 
@@ -95,24 +106,35 @@ void PlanProgram::limit_heat(const CoilLimits& c) {
       rows_.push_back(root * current_row(c, coil, i, 1));
     }
   }
-  q_.blocks.push_back(std::move(ball));
+  add(PlanLimit::heat, std::move(ball));
 }
 
-void PlanProgram::keep(const Eigen::MatrixXd& by_command, Vec2 direction, double room, double unit,
-                       double weight) {
+void PlanProgram::keep(PlanLimit limit, const Eigen::MatrixXd& by_command, Vec2 direction, double room,
+                       double unit, double weight) {
   const Eigen::RowVectorXd row = (direction.x * by_command.row(0) + direction.y * by_command.row(1)) / unit;
   QuadraticProgram::Block block;
   block.first = row_count();
   block.high = room / unit + row.dot(plan_);
   block.weight = weight;
-  q_.blocks.push_back(block);
+  add(limit, block);
   rows_.push_back(row);
 }
 
 QuadraticProgram PlanProgram::take() {
   q_.rows.resize(row_count(), size());
   for (Eigen::Index i = 0; i < row_count(); ++i) q_.rows.row(i) = rows_[std::size_t(i)];
+  largest_gradient_ = q_.gradient.cwiseAbs().maxCoeff();
   return std::move(q_);
+}
+
+std::vector<PlanLimit> PlanProgram::active(const QuadraticSolution& solution) const {
+  std::vector<PlanLimit> found;
+  for (const Rows& r : limits_) {
+    const bool acts = solution.multipliers.segment(r.first, r.count).norm() > kActive * largest_gradient_;
+    if (acts && std::find(found.begin(), found.end(), r.limit) == found.end()) found.push_back(r.limit);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
 }
 
 }  // namespace faba

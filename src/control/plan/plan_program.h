@@ -2,6 +2,7 @@
 #include <optional>
 #include <vector>
 
+#include "control/plan/plan.h"
 #include "control/plan/quadratic_program.h"
 #include "core/vec.h"
 
@@ -35,15 +36,23 @@ class PlanProgram {
   void limit(const CoilLimits& c);
   /// direction . (p - the p that is planned) <= room for a position with these derivatives, in units of
   /// `unit` (m), as far as possible: a violation has the cost of `weight` times its square.
-  void keep(const Eigen::MatrixXd& by_command, Vec2 direction, double room, double unit, double weight);
+  void keep(PlanLimit limit, const Eigen::MatrixXd& by_command, Vec2 direction, double room, double unit,
+            double weight);
 
   /// The program. No more can be added.
   QuadraticProgram take();
+  /// The limits without which the solution would be another: those with a multiplier.
+  std::vector<PlanLimit> active(const QuadraticSolution& solution) const;
 
  private:
+  struct Rows {
+    PlanLimit limit;
+    Eigen::Index first, count;
+  };
   Eigen::Index size() const { return plan_.size(); }
   Eigen::Index row_count() const { return Eigen::Index(rows_.size()); }
   Eigen::RowVectorXd current_row(const CoilLimits& c, std::size_t coil, Eigen::Index move, double unit) const;
+  void add(PlanLimit limit, QuadraticProgram::Block block);
   void limit_commands();
   void limit_coil(const CoilLimits& c, std::size_t coil);
   void limit_heat(const CoilLimits& c);
@@ -51,6 +60,8 @@ class PlanProgram {
   Eigen::VectorXd plan_;
   QuadraticProgram q_;
   std::vector<Eigen::RowVectorXd> rows_;
+  std::vector<Rows> limits_;     ///< of each block
+  double largest_gradient_ = 0;  ///< at no command
 };
 
 }  // namespace faba

@@ -13,6 +13,7 @@ import * as jobs from './jobs';
 import * as lab from './lab';
 import * as optics from './optics';
 import * as own from './own';
+import * as plan from './plan';
 import * as quality from './quality';
 import * as result from './result';
 import * as runs from './runs';
@@ -33,6 +34,7 @@ const en = {
   ...lab.en,
   ...optics.en,
   ...own.en,
+  ...plan.en,
   ...quality.en,
   ...result.en,
   ...runs.en,
@@ -53,6 +55,7 @@ const pt = {
   ...lab.pt,
   ...optics.pt,
   ...own.pt,
+  ...plan.pt,
   ...quality.pt,
   ...result.pt,
   ...runs.pt,

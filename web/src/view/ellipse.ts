@@ -43,8 +43,14 @@ function moments() {
 }
 
 /** The ellipse of the covariance matrix with these standard deviations and this correlation. */
-export function ellipseOf(sx: number, sy: number, correlated: number): Ellipse {
-  const mean = (sx * sx + sy * sy) / 2, half = (sx * sx - sy * sy) / 2, c = correlated * sx * sy;
+export const ellipseOf = (sx: number, sy: number, correlated: number): Ellipse => ellipseOfCovariance({ xx: sx * sx, xy: correlated * sx * sy, yy: sy * sy });
+
+/** Semi-axes of the ellipse that has 95 % of a normal distribution of two variables, in standard deviations: sqrt(-2 ln 0.05). */
+export const kSigmas95 = Math.sqrt(-2 * Math.log(0.05));
+
+/** The ellipse of `sigmas` standard deviations of a covariance matrix. */
+export function ellipseOfCovariance({ xx, xy, yy }: { xx: number; xy: number; yy: number }, sigmas = 1): Ellipse {
+  const mean = (xx + yy) / 2, half = (xx - yy) / 2, c = xy;
   const root = Math.hypot(half, c);
-  return { major: Math.sqrt(mean + root), minor: Math.sqrt(Math.max(0, mean - root)), angle: Math.atan2(c, half) / 2 };
+  return { major: sigmas * Math.sqrt(Math.max(0, mean + root)), minor: sigmas * Math.sqrt(Math.max(0, mean - root)), angle: Math.atan2(c, half) / 2 };
 }

@@ -1,4 +1,4 @@
-#include "study/pages/controller_report.h"
+#include "study/pages/steering/controller_report.h"
 
 #include <fmt/format.h>
 

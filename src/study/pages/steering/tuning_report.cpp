@@ -1,4 +1,4 @@
-#include "study/pages/tuning_report.h"
+#include "study/pages/steering/tuning_report.h"
 
 #include <fmt/format.h>
 
