@@ -100,8 +100,8 @@ export const scenario: Record<string, string> = {
   'must be an array of tables; write [[swarm]] for each kind of cells': 'deve ser uma lista de tabelas; escreva [[swarm]] para cada tipo de célula',
   '{} cells in total; the maximum is 5e7': '{} células no total; o máximo é 5e7',
   // control
-  'spread_px must be larger than compact_px': 'spread_px deve ser maior que compact_px',
-  'points_px needs at least two points, such as [[100, 120], [300, 200]]; or choose another `shape`': 'points_px precisa de pelo menos dois pontos, como [[100, 120], [300, 200]]; ou escolha outro `shape`',
+  'spread_px = {} must be larger than compact_px = {}': 'spread_px = {} deve ser maior que compact_px = {}',
+  'points_px has 1 point; a curve needs at least two points, such as [[100, 120], [300, 200]]': 'points_px tem 1 ponto; uma curva precisa de pelo menos dois pontos, como [[100, 120], [300, 200]]',
   'text "{}" has no letter or digit; write a text such as "FABA"': 'text "{}" não tem letra nem algarismo; escreva um texto como "FABA"',
   'text "{}" contains a character that cannot be written; use {}, spaces and hyphens': 'text "{}" contém um caractere que não pode ser escrito; use {}, espaços e hifens',
   'controller: it steers two swarms, but estimator "{}" does not separate them; use the estimator of groups': 'controlador: ele conduz dois enxames, mas o estimador "{}" não os separa; use o estimador de grupos',
