@@ -54,6 +54,7 @@ OTHER_MEANINGS = (
      "src/server/api/experiments.cpp src/server/experiments/experiment_changes.cpp src/server/experiments/experiment_store.cpp "
      "src/study/motion/activity_study.cpp "
      "web/src/pages/experiments/ExperimentPage.svelte web/src/pages/experiments/VideoRow.svelte"),
+    ("drop", "the edge of the drop as a limit of a plan", "web/src/frame.ts"),
     ("drop", "the name of a file", "web/src/own/StartStep.svelte"),
     ("edge", "where `compact` gathers the swarm", "src/control/compact.cpp"),
     ("edge", "a layer of the picture", "web/src/bench/draw.ts web/src/i18n/bench.ts web/src/workbench/Stage.svelte web/src/video/overlays.ts web/src/video/VideoViewer.svelte"),
@@ -70,6 +71,7 @@ OTHER_MEANINGS = (
     ("lqr", "advice in a translated message", "web/src/i18n/program/refusals/studies.ts"),
     ("none", "advice in a translated message", "web/src/i18n/program/refusals/scenario.ts"),
     ("none", "no experiment, or a style of the page", "web/src/i18n/bench.ts web/src/bench/Histogram.svelte web/src/bench/ScheduleTimeline.svelte"),
+    ("none", "no limit of a plan", "web/src/i18n/plan.ts"),
     ("none", "no defect", "src/rig/setup/amplifier.cpp"),
     ("none", "no fault of the guard", "src/rig/setup/coil_guard.cpp"),
     ("none", "no exclusion", "src/sim/exclusion.cpp"),
@@ -94,6 +96,8 @@ OTHER_MEANINGS = (
      "src/server/api/folders.cpp src/server/api/results.cpp src/server/experiments/experiment_changes.cpp "
      "src/server/experiments/experiment_store.cpp src/study/pages/provenance_output.cpp"),
     ("path", "a feature of a track", "src/study/tracks/track_features.h"),
+    ("path", "a curve that is drawn on the picture",
+     "web/src/drawing.svelte.ts web/src/workbench/DrawArea.svelte web/src/workbench/DrawBar.svelte web/src/workbench/Stage.svelte"),
     ("path", "an SVG element", "web/src/results/plot_drawing.ts web/src/parts/ReportFigure.svelte"),
     ("route", "a label or a layer of a picture", "src/study/pages/run_figures.cpp web/src/workbench/Stage.svelte"),
     ("simulated", "the word of a trait", "src/core/traits.h"),
