@@ -54,7 +54,9 @@ OTHER_MEANINGS = (
      "src/server/api/experiments.cpp src/server/experiments/experiment_changes.cpp src/server/experiments/experiment_store.cpp "
      "src/study/motion/activity_study.cpp "
      "web/src/pages/experiments/ExperimentPage.svelte web/src/pages/experiments/VideoRow.svelte"),
+    ("drop", "the edge of the drop as a limit of a plan", "web/src/frame.ts"),
     ("drop", "the name of a file", "web/src/own/StartStep.svelte"),
+    ("edge", "where `compact` gathers the swarm", "src/control/compact.cpp"),
     ("edge", "a layer of the picture", "web/src/bench/draw.ts web/src/i18n/bench.ts web/src/workbench/Stage.svelte web/src/video/overlays.ts web/src/video/VideoViewer.svelte"),
     ("edge", "the edge of the drop: a step, a key, a place of cells", "web/src/own/own.ts web/src/own/EdgeStep.svelte web/src/own/CellsStep.svelte"),
     ("hold", "a parameter", "src/sim/agents/adapted.cpp src/sim/agents/basic.cpp"),
@@ -64,10 +66,12 @@ OTHER_MEANINGS = (
     ("mean", "the average, as a JSON key, a parameter or a heading",
      "src/app/bench/live_picture.cpp src/cli/verbs/compare.cpp src/study/identify/free_parameter.cpp "
      "src/study/pages/compare_report.cpp src/study/pages/steering/controller_report.cpp src/study/pages/identify_report.cpp "
-     "src/study/pages/tracks/track_json.cpp src/study/pages/calibration/calibration_json.cpp web/src/i18n/analyse.ts"),
+     "src/study/pages/tracks/track_json.cpp src/study/pages/calibration/calibration_json.cpp src/study/pages/steering/tuning_report.cpp web/src/i18n/analyse.ts"),
     ("dipole", "a word of a translated message", "web/src/i18n/program/refusals/coils.ts"),
+    ("lqr", "advice in a translated message", "web/src/i18n/program/refusals/studies.ts"),
     ("none", "advice in a translated message", "web/src/i18n/program/refusals/scenario.ts"),
     ("none", "no experiment, or a style of the page", "web/src/i18n/bench.ts web/src/bench/Histogram.svelte web/src/bench/ScheduleTimeline.svelte"),
+    ("none", "no limit of a plan", "web/src/i18n/plan.ts"),
     ("none", "no defect", "src/rig/setup/amplifier.cpp"),
     ("none", "no fault of the guard", "src/rig/setup/coil_guard.cpp"),
     ("none", "no exclusion", "src/sim/exclusion.cpp"),
@@ -88,6 +92,13 @@ OTHER_MEANINGS = (
     ("rig", "the file of a coil system, as an argument or a key",
      "src/app/files/library_file.cpp src/cli/options/field.cpp src/cli/verbs/field/fit.cpp src/cli/verbs/schema.cpp "
      "src/server/jobs/job_kinds.cpp src/server/jobs/job_estimate.cpp src/study/coils/field_library.cpp"),
+    ("path", "the place of a file or of a value, as a JSON key",
+     "src/server/api/folders.cpp src/server/api/results.cpp src/server/experiments/experiment_changes.cpp "
+     "src/server/experiments/experiment_store.cpp src/study/pages/provenance_output.cpp"),
+    ("path", "a feature of a track", "src/study/tracks/track_features.h"),
+    ("path", "a curve that is drawn on the picture",
+     "web/src/drawing.svelte.ts web/src/workbench/DrawArea.svelte web/src/workbench/DrawBar.svelte web/src/workbench/Stage.svelte"),
+    ("path", "an SVG element", "web/src/results/plot_drawing.ts web/src/parts/ReportFigure.svelte"),
     ("route", "a label or a layer of a picture", "src/study/pages/run_figures.cpp web/src/workbench/Stage.svelte"),
     ("simulated", "the word of a trait", "src/core/traits.h"),
     ("thesis", "a section of the gallery", "src/server/gallery_index.cpp web/src/gallery.ts"),

@@ -17,8 +17,7 @@ constexpr double kHoldStrength = 1e-3;  // T
 /// Mean and variance (theory F3): gathers the swarm until its RMS radius is below `compact_px`, then moves it
 /// to the setpoint, and gathers it again when the radius exceeds `spread_px`.
 /// - Gathering at the edge: a uniform field in one direction; the cells slide along the edge to the point
-/// that
-///   lies in this direction. In a trap: a zero of the field in the middle of the drop.
+///   that lies in this direction. In a trap: a zero of the field in the middle of the drop.
 /// - Transport by the field: the cells swim straight to the setpoint and are held there by a rotating field,
 ///   because they would disperse in a weak field (F1). By the trap: the zero moves to the setpoint, and waits
 ///   while the swarm is wider than `spread_px`.

@@ -60,9 +60,8 @@ Schema<ReferencePath::Params> ReferencePath::schema() {
            {.unit = "px",
             .min = -1e5,
             .max = 1e5,
-            .doc = "Centre of the other shapes in image coordinates; default: the centre of the arena"})
-      .add("size_px", &Params::size_px,
-           {.unit = "px", .min = 1, .max = 1e5, .doc = "Width of the other shapes"})
+            .doc = "Centre of the shape in image coordinates; default: the centre of the arena"})
+      .add("size_px", &Params::size_px, {.unit = "px", .min = 1, .max = 1e5, .doc = "Width of the shape"})
       .add("text", &Params::text, {.doc = "Text that is written: letters, digits, spaces and hyphens"})
       .add("look_ahead_px", &Params::look_ahead_px,
            {.unit = "px",

@@ -52,7 +52,7 @@ await step('the words of English texts are recognised', () => {
 });
 
 await step('every text of the schemas has a translation', () => {
-  for (const kind of ['scenario', 'rig', 'identify', 'calibrate', 'compare-controllers', 'activity', 'moment', 'experiment', 'engine']) {
+  for (const kind of ['scenario', 'rig', 'identify', 'calibrate', 'compare-controllers', 'benchmark-control', 'activity', 'moment', 'experiment', 'engine']) {
     const all = schemaTexts(kind === 'scenario' ? scenario : JSON.parse(run('schema', kind)));
     assert.ok(all.texts.length > 5, kind);
     assert.deepEqual([...new Set(all.texts)].filter((t) => textIn('pt', t) === undefined), [], `faba schema ${kind}`);

@@ -27,7 +27,7 @@ struct ControllerStudy {
   std::string ranked_by = "steady_rms_px";       ///< metric of the best controller
   /// Controllers with which all others are compared: the best of them, with the same model and delay.
   std::vector<std::string> baseline = {};
-  /// Polygons that the swarm must not enter, image coordinates; controllers with obstacles are told them.
+  /// Polygons that the swarm must not enter, image coordinates; controllers with obstacles know them.
   std::vector<std::vector<Vec2>> keep_out_px = {};
   std::string label = {};  ///< distinguishes studies with their results in one store
 };

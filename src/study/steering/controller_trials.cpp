@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kMostPoints = 600;  // points of the stored time series of a trial
 
-// Controllers that know obstacles are told those that the study measures.
+// Controllers that avoid obstacles avoid those that the study measures.
 void give_obstacles(const ControllerStudy& study, const Parts& parts, Document& d) {
   if (study.keep_out_px.empty()) return;
   const std::string type = parts.controller.resolve(Node(d).child("controller")).type;

@@ -16,6 +16,21 @@ export const scenes: Record<string, string> = {
   'Swarm at a setpoint, simulation or bench': 'Enxame em um ponto de referência, simulação ou bancada',
   'One scenario for simulation and bench: a swarm is held at a setpoint by four coils.': 'Um mesmo cenário para simulação e bancada: quatro bobinas mantêm um enxame em um ponto de referência.',
   'One scenario for simulation and bench: a simulation uses the positions of all cells or rendered pictures, and a run on the bench uses the camera and coils of [rig], here a simulated bench in real time.': 'Um mesmo cenário para simulação e bancada: uma simulação usa as posições de todas as células ou imagens renderizadas, e uma execução na bancada usa a câmera e as bobinas de [rig], aqui uma bancada simulada em tempo real.',
+  // compact
+  'Gather and move': 'Reunir e mover',
+  'Cells that fill a drop are gathered at its edge, and the compact swarm is moved over half of the drop.': 'Células que preenchem uma gota são reunidas na sua borda, e o enxame compacto é movido por metade da gota.',
+  // one-cell-msr1
+  'One cell of MSR-1 at a setpoint': 'Uma célula de MSR-1 em um ponto de referência',
+  'A rotating field holds one cell of MSR-1 at a setpoint, as in a published experiment.': 'Um campo girante mantém uma célula de MSR-1 em um ponto de referência, como em um experimento publicado.',
+  'One cell of MSR-1 in a field of 2 mT, as in a published experiment (docs/results/control.md). A cell swims all the time: the smallest circle that it can stay in has the radius v / w_B, here 32 um/s / 1.48 rad/s.': 'Uma célula de MSR-1 em um campo de 2 mT, como em um experimento publicado (docs/results/control.md). Uma célula nada o tempo todo: o menor círculo em que ela pode permanecer tem o raio v / w_B, aqui 32 µm/s / 1,48 rad/s.',
+  // one-cell-maze
+  'One cell of MSR-1 in a maze': 'Uma célula de MSR-1 em um labirinto',
+  'A linear-quadratic regulator steers one cell of MSR-1 along the corridors of a maze.': 'Um regulador linear-quadrático conduz uma célula de MSR-1 pelos corredores de um labirinto.',
+  'One cell along the corridors of a maze, 10 um wide, as in a published experiment (docs/results/control.md). There are no walls: the distance from the middle of the corridor shows whether the cell would touch one, at 5 um.': 'Uma célula pelos corredores de um labirinto, com 10 µm de largura, como em um experimento publicado (docs/results/control.md). Não há paredes: a distância ao meio do corredor mostra se a célula tocaria uma, a 5 µm.',
+  // one-cell-microjet
+  'One microjet at a setpoint': 'Um microjato em um ponto de referência',
+  'A self-propelled microjet is steered to a setpoint, as in a published experiment.': 'Um microjato autopropelido é conduzido a um ponto de referência, como em um experimento publicado.',
+  'A self-propelled microjet at a setpoint, as in a published experiment (docs/results/control.md). Its speed is published; size and moment are assumed, so that it turns at 2 rad/s in a field of 2 mT.': 'Um microjato autopropelido em um ponto de referência, como em um experimento publicado (docs/results/control.md). A sua velocidade é publicada; tamanho e momento são supostos, de modo que ele gira a 2 rad/s em um campo de 2 mT.',
   // million
   'A million cells': 'Um milhão de células',
   'A million cells in a constant field, for measurements of speed.': 'Um milhão de células em um campo constante, para medidas de velocidade.',

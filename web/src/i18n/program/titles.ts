@@ -24,6 +24,8 @@ export const titles: Record<string, string> = {
   'Distance from edges': 'Distância das bordas', 'Distance from obstacles': 'Distância dos obstáculos', Obstacles: 'Obstáculos', 'Heat of the coils': 'Calor das bobinas', Corners: 'Vértices',
   Actuation: 'Atuação', 'Prediction time': 'Tempo de predição', 'Near distance': 'Distância próxima', 'Far distance': 'Distância distante', 'Fuzzy states': 'Estados fuzzy', 'Direction of the command': 'Direção do comando', Current: 'Corrente',
   'Maximum displacement of the zero': 'Deslocamento máximo do zero', 'Maximum number of groups': 'Número máximo de grupos', Count: 'Número', Separation: 'Separação', At: 'Instante',
+  Shape: 'Forma', Points: 'Pontos', Closed: 'Fechada', Text: 'Texto', 'Look-ahead distance': 'Distância de antecipação', Laps: 'Voltas', Transport: 'Transporte',
+  Compact: 'Compacto', Spread: 'Disperso', Patience: 'Paciência', 'Speed fraction': 'Fração da velocidade',
   // Scale, camera, limits
   'Image scale': 'Escala da imagem', 'Duration of one iteration': 'Duração de uma iteração', 'Field unit': 'Unidade de campo', File: 'Arquivo', Rate: 'Taxa de quadros', Jitter: 'Variação do atraso', Sensor: 'Sensor', 'Max current': 'Corrente máxima',
   'Max slew': 'Variação máxima', 'Max frame age': 'Idade máxima do quadro', Step: 'Passo', Order: 'Ordem', 'Integer positions': 'Posições inteiras',

@@ -1,6 +1,8 @@
 /** Messages of files, pictures and videos, in Portuguese, by the English text. */
 export const files: Record<string, string> = {
   // app/recording
+  'Simulation of {} magnetotactic bacteria for {} s (seed {}, state hash {})': 'Simulação de {} bactérias magnetotáticas por {} s (semente {}, hash do estado {})',
+  'Recording of a control loop on a bench for {} s': 'Gravação de uma malha de controle em uma bancada por {} s',
   'is not a checkpoint of this version of faba': 'não é um ponto de retomada desta versão do faba',
   'is corrupt (wrong checksum); run the scenario again': 'está corrompido (soma de verificação errada); execute o cenário novamente',
   'belongs to another scenario': 'pertence a outro cenário',

@@ -74,6 +74,7 @@ export const scenario: Record<string, string> = {
   'is a study for `faba identify`': 'é um estudo para `faba identify`',
   'is a study for `faba activity`': 'é um estudo para `faba activity`',
   'is a study for `faba compare-controllers`': 'é um estudo para `faba compare-controllers`',
+  'is a benchmark for `faba benchmark-control`': 'é um benchmark para `faba benchmark-control`',
   'is a study for `faba moment`': 'é um estudo para `faba moment`',
   'is a file for `faba calibrate`': 'é um arquivo para `faba calibrate`',
   'names no part; add at least one of the keys {}, and the key frame with the frame before which the part is exchanged': 'não nomeia nenhuma parte; adicione pelo menos uma das chaves {}, e a chave frame com o quadro antes do qual a parte é trocada',
@@ -99,6 +100,10 @@ export const scenario: Record<string, string> = {
   'must be an array of tables; write [[swarm]] for each kind of cells': 'deve ser uma lista de tabelas; escreva [[swarm]] para cada tipo de célula',
   '{} cells in total; the maximum is 5e7': '{} células no total; o máximo é 5e7',
   // control
+  'spread_px = {} must be larger than compact_px = {}': 'spread_px = {} deve ser maior que compact_px = {}',
+  'points_px has 1 point; a curve needs at least two points, such as [[100, 120], [300, 200]]': 'points_px tem 1 ponto; uma curva precisa de pelo menos dois pontos, como [[100, 120], [300, 200]]',
+  'text "{}" has no letter or digit; write a text such as "FABA"': 'text "{}" não tem letra nem algarismo; escreva um texto como "FABA"',
+  'text "{}" contains a character that cannot be written; use {}, spaces and hyphens': 'text "{}" contém um caractere que não pode ser escrito; use {}, espaços e hifens',
   'controller: it steers two swarms, but estimator "{}" does not separate them; use the estimator of groups': 'controlador: ele conduz dois enxames, mas o estimador "{}" não os separa; use o estimador de grupos',
   'controller: {}': 'controlador: {}',
   'frequency is 0 Hz; a rotating field needs a positive or a negative frequency, such as "5 Hz"': 'frequency é 0 Hz; um campo girante precisa de uma frequência positiva ou negativa, como "5 Hz"',

@@ -1,4 +1,4 @@
-/** Portuguese texts of the reports of comparisons of controllers and of sweeps. */
+/** Portuguese texts of the reports of comparisons, of the tuning and of the benchmark of controllers. */
 export const control: Record<string, string> = {
   'settling time (s)': 'tempo de acomodação (s)', 'steady-state error (px rms)': 'erro em regime permanente (px rms)', 'IAE (px s)': 'IAE (px s)', 'cross-track error (px, 95 %)': 'erro transversal (px, 95 %)', 'final dispersion (px rms)': 'dispersão final (px rms)',
   'control effort (A² s)': 'esforço de controle (A² s)', 'total variation (µT)': 'variação total (µT)', controller: 'controlador', settled: 'acomodados', condition: 'condição', 'difference to the best (px)': 'diferença ao melhor (px)',
@@ -11,4 +11,30 @@ export const control: Record<string, string> = {
   'Bars: 95 % confidence interval of the mean.': 'Barras: intervalo de confiança de 95 % da média.', 'delay (frames)': 'atraso (quadros)', '{} has the smallest steady-state error, {}.': '{} tem o menor erro em regime permanente, {}.', '{} (not significantly smaller than all others)': '{} (não significativamente menor que todos os outros)',
   '{}, {#} px rms (not significantly smaller than all others)': '{}, {} px rms (não significativamente menor que todos os outros)',
   '± is half of the 95 % confidence interval of the mean.': '± é metade do intervalo de confiança de 95 % da média.', 'Controller with the smallest steady-state error': 'Controlador com o menor erro em regime permanente',
+  // Metrics.
+  'Largest distance': 'Maior distância', 'over the last third of the frames': 'no último terço dos quadros', 'Heat of the coils': 'Calor das bobinas', 'mean over the run, all coils': 'média da execução, todas as bobinas',
+  'Mean in a forbidden region': 'Média em uma região proibida', 'Cells in a forbidden region': 'Células em uma região proibida', 'fraction of the frames': 'fração dos quadros', 'mean fraction': 'fração média',
+  'Settling time, s': 'Tempo de acomodação, s', 'Steady-state error, px': 'Erro em regime permanente, px', 'Largest distance, px': 'Maior distância, px', 'Cross-track error, 95 %, px': 'Erro transversal, 95 %, px', 'RMS radius, px': 'Raio RMS, px',
+  'Control effort, A² s': 'Esforço de controle, A² s', 'Heat of the coils, W': 'Calor das bobinas, W', 'Limited, %': 'Limitado, %', 'Mean in a forbidden region, %': 'Média em uma região proibida, %', 'Cells in a forbidden region, %': 'Células em uma região proibida, %',
+  'IAE, px s': 'IAE, px s', 'Steady-state error (px)': 'Erro em regime permanente (px)', 'Settling time (s)': 'Tempo de acomodação (s)', 'Largest distance (px)': 'Maior distância (px)', 'Cross-track error, 95 % (px)': 'Erro transversal, 95 % (px)',
+  'RMS radius (px)': 'Raio RMS (px)', 'Control effort (A² s)': 'Esforço de controle (A² s)', 'Heat of the coils (W)': 'Calor das bobinas (W)', '{} {#} ± {#} px': '{} {} ± {} px', '{} {#} ± {#} s': '{} {} ± {} s',
+  // Tuning.
+  'Tuning of {}': 'Sintonia de {}', '{} on the held-out seeds; {} with the given parameters.': '{} nas sementes reservadas; {} com os parâmetros informados.',
+  '{} on the held-out seeds; {} with the given parameters (no significant difference).': '{} nas sementes reservadas; {} com os parâmetros informados (sem diferença significativa).',
+  Parameters: 'Parâmetros', parameter: 'parâmetro', given: 'informado', tuned: 'sintonizado', 'range of the search': 'intervalo da busca', undefined: 'indefinido', 'training, {}': 'treinamento, {}', 'held out, {}': 'reservadas, {}',
+  '± is half of the 95 % confidence interval of the mean. The training seeds chose the parameters, so that only the held-out seeds show the improvement.': '± é metade do intervalo de confiança de 95 % da média. As sementes de treinamento escolheram os parâmetros, por isso só as sementes reservadas mostram a melhora.',
+  'The training seeds chose the parameters, so that only the held-out seeds show the improvement.': 'As sementes de treinamento escolheram os parâmetros, por isso só as sementes reservadas mostram a melhora.',
+  Search: 'Busca', 'Mean over {} of each parameter set, in the order of the search.': 'Média sobre {} de cada conjunto de parâmetros, na ordem da busca.', 'Line: the smallest so far.': 'Linha: o menor até então.',
+  'Metric against the number of the parameter set': 'Métrica em função do número do conjunto de parâmetros', 'parameter set': 'conjunto de parâmetros', 'smallest so far': 'menor até então', '{#} training seed': '{} semente de treinamento', '{#} training seeds': '{} sementes de treinamento',
+  '{} is at the end of its range, so that a better value may lie outside; extend the range with {}': '{} está no fim do seu intervalo, por isso um valor melhor pode estar fora dele; amplie o intervalo com {}',
+  'no parameter set was better than the given one on the training seeds': 'nenhum conjunto de parâmetros foi melhor que o informado nas sementes de treinamento',
+  'the tuned parameters are not significantly better than the given ones on the held-out seeds': 'os parâmetros sintonizados não são significativamente melhores que os informados nas sementes reservadas',
+  'the metric is undefined in {#} of {#} trials; try a longer duration or another --metric': 'a métrica é indefinida em {} de {} ensaios; experimente uma duração maior ou outra --metric',
+  // Benchmark.
+  'Version {#} of the cases.': 'Versão {} dos casos.',
+  'Means over {} (from seed {#}) ± half of the 95 % confidence interval of the mean; a settling time is the mean over the trials that settled.': 'Médias sobre {} (a partir da semente {}) ± metade do intervalo de confiança de 95 % da média; um tempo de acomodação é a média sobre os ensaios que se acomodaram.',
+  'Differences are paired by the seeds, with their 95 % interval in parentheses.': 'As diferenças são pareadas pelas sementes, com o seu intervalo de 95 % entre parênteses.',
+  'Differences to the best controller of the baseline:': 'Diferenças ao melhor controlador da linha de base:', 'delay, frames': 'atraso, quadros', minus: 'menos', '{} ({#} to {#})': '{} ({} a {})',
+  'rms distance / speed, s': 'distância rms / velocidade, s', 'largest distance / speed, s': 'maior distância / velocidade, s', 'Time of a control cycle': 'Tempo de um ciclo de controle', case: 'caso',
+  'median, ms': 'mediana, ms', '99.9 %, ms': '99,9 %, ms', 'largest, ms': 'maior, ms', 'frame, ms': 'quadro, ms',
 };
