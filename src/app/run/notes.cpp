@@ -15,20 +15,30 @@ namespace {
 
 using Notes = std::vector<std::string>;
 
+constexpr std::size_t kListedSetpoints = 50;  // more are a curve, for which one note is enough
+
 void note_setpoints(const Scenario& s, const Simulation& simulation, Notes& notes) {
   const Arena& arena = *simulation.world().parts().arena;
-  for (const Vec2 at : simulation.reference().setpoints()) {
+  const std::vector<Vec2> all = simulation.reference().setpoints();
+  std::size_t outside = 0;
+  for (const Vec2 at : all) {
     const Vec2 px = simulation.frame().image_from_world(at);
-    if (arena.depth(at) >= 0) {
-      if (!simulation.frame().in_view(px))
-        notes.push_back(
-            fmt::format("reference: the setpoint ({:g}, {:g}) px is outside the camera view", px.x, px.y));
-      continue;
-    }
+    const bool reachable = arena.depth(at) >= 0;
+    if (reachable && simulation.frame().in_view(px)) continue;
+    ++outside;
+    if (all.size() > kListedSetpoints) continue;
     notes.push_back(
-        fmt::format("reference: the setpoint ({:g}, {:g}) px is outside the {}; the swarm cannot reach it",
-                    px.x, px.y, s.arena.type));
+        reachable
+            ? fmt::format("reference: the setpoint ({:g}, {:g}) px is outside the camera view", px.x, px.y)
+            : fmt::format(
+                  "reference: the setpoint ({:g}, {:g}) px is outside the {}; the swarm cannot reach it",
+                  px.x, px.y, s.arena.type));
   }
+  if (outside > 0 && all.size() > kListedSetpoints)
+    notes.push_back(fmt::format(
+        "reference: {:.0f} % of the curve is outside the camera view or the {}; the swarm cannot be "
+        "followed or cannot go there",
+        100.0 * double(outside) / double(all.size()), s.arena.type));
 }
 
 void note_polarities(const Scenario& s, Notes& notes) {

@@ -80,6 +80,10 @@ class ControlBenchmarkJob final : public StudyJob {
 
   void print(const StudyDirectory& dir, const Common& c) const override {
     if (c.json) print_study(dir, report());
+    if (!c.quiet)
+      for (const ControllerComparison& one : result_->cases)
+        for (const std::string& note : one.notes)
+          print_stderr(fmt::format("faba: note: {}: {}", one.study.title, note));
     if (c.json || c.quiet) return;
     summary(*result_);
     fmt::print("wrote {} and control.md\n", (dir.path() / "report.html").string());

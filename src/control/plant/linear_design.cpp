@@ -145,6 +145,8 @@ Margins margins_of(const LqrDesign& design, int delay) {
       if (before.imag() < 0 && loop.imag() >= 0 && loop.real() < 0 && loop.real() > -1)
         m.gain = std::min(m.gain, 1 / std::abs(loop.real()));
     }
+    // At the Nyquist frequency the loop is real, and crosses the axis without a change of sign.
+    if (i == kFrequencies && loop.real() < 0 && loop.real() > -1) m.gain = std::min(m.gain, 1 / -loop.real());
     before = loop;
   }
   return m;

@@ -127,6 +127,10 @@ BenchmarkCase read_case(const Node& n, const Node& root, const BenchmarkFile& b,
   apply_set(n, s.scene);
   s.controllers = chosen(controllers, f.controllers, n);
   s.models = {{.name = "as the scene has it", .origin = n.where()}};
+  if (n.has("controllers") && f.controllers.empty())
+    n.fail("controllers is an empty list; name some, or omit the key for all controllers of the benchmark");
+  if (std::set<int>(f.delays.begin(), f.delays.end()).size() != f.delays.size())
+    n.fail("delays: a delay is listed twice; delays must be unique");
   s.delays = f.delays;
   s.seeds = b.seeds;
   s.first_seed = b.first_seed;

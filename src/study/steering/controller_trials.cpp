@@ -56,6 +56,25 @@ std::vector<TaskLabel> trial_labels(const ControllerStudy& study, const Setting&
           {"seed", fmt::format("{}", seed), double(seed)}};
 }
 
+Setting setting(const ControllerStudy& study, std::size_t model, std::size_t controller,
+                std::optional<int> delay, const Parts& parts, std::vector<std::string>* notes) {
+  Document d = study.scene;
+  apply(study.models[model], "model", d);
+  apply(study.controllers[controller], "controller", d);
+  if (delay) d.set("camera.delay_frames", Json(*delay), "delays");
+  give_obstacles(study, parts, d);
+  Scenario s = read_scenario(d, parts);
+  Pool pool(1);
+  const Simulation check(s, study.first_seed, pool);
+  if (check.reference().setpoints().empty())
+    throw Error(Errc::usage, study.scene.name, "has no setpoint; add a [reference]");
+  if (notes)
+    for (const std::string& note : scenario_notes(s, check, std::filesystem::current_path()))
+      if (std::find(notes->begin(), notes->end(), note) == notes->end()) notes->push_back(note);
+  const int frames = s.camera.delay_frames;
+  return {controller, model, frames, std::move(s), setpoint_count(check.reference())};
+}
+
 }  // namespace
 
 Settings settings_of(const ControllerStudy& study, std::vector<std::string>* notes) {
@@ -63,27 +82,15 @@ Settings settings_of(const ControllerStudy& study, std::vector<std::string>* not
   const Parts& parts = study.parts ? *study.parts : builtin_parts();
   std::vector<std::optional<int>> delays(study.delays.begin(), study.delays.end());
   if (delays.empty()) delays.emplace_back();
-  Pool pool(1);
   for (std::size_t m = 0; m < study.models.size(); ++m)
     for (const std::optional<int> delay : delays)
-      for (std::size_t c = 0; c < study.controllers.size(); ++c) {
-        Document d = study.scene;
-        apply(study.models[m], "model", d);
-        apply(study.controllers[c], "controller", d);
-        if (delay) d.set("camera.delay_frames", Json(*delay), "delays");
-        give_obstacles(study, parts, d);
-        Scenario s = read_scenario(d, parts);
-        const Simulation check(s, study.first_seed, pool);
-        if (check.reference().setpoints().empty())
-          throw Error(Errc::usage, study.scene.name,
-                      fmt::format("has no setpoint for controller \"{}\"; add a [reference]",
+      for (std::size_t c = 0; c < study.controllers.size(); ++c) try {
+          all.push_back(setting(study, m, c, delay, parts, notes));
+        } catch (const Error& e) {
+          throw Error(e.code(), e.where(),
+                      fmt::format("{} (study \"{}\", controller \"{}\")", e.reason(), study.title,
                                   study.controllers[c].name));
-        if (notes)
-          for (const std::string& note : scenario_notes(s, check, std::filesystem::current_path()))
-            if (std::find(notes->begin(), notes->end(), note) == notes->end()) notes->push_back(note);
-        const int frames = s.camera.delay_frames;
-        all.push_back({c, m, frames, std::move(s), setpoint_count(check.reference())});
-      }
+        }
   return std::make_shared<const std::vector<Setting>>(std::move(all));
 }
 

@@ -1,5 +1,6 @@
 // What `faba tune` varies: the parameters of a scenario's controller, with their ranges.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -28,6 +29,15 @@ double end_of_range(const std::string& text, const std::string& unit, const std:
   }
 }
 
+// The keys of real numbers of a controller; integers are not varied.
+std::vector<std::string> numbers_of(const Json& properties) {
+  std::vector<std::string> keys;
+  for (const auto& [key, field] : properties.items())
+    if (field.contains("type") && (field["type"] == "number" || field["type"].is_array()))
+      keys.push_back(key);
+  return keys;
+}
+
 // "gain=0.1..2"
 TunedParameter parameter_of(const std::string& range, const Json& properties) {
   const auto equals = range.find('='), dots = range.find("..");
@@ -35,19 +45,23 @@ TunedParameter parameter_of(const std::string& range, const Json& properties) {
     throw Error(Errc::usage, "--range",
                 fmt::format("\"{}\" is not a range; write KEY=LOW..HIGH, such as gain=0.1..2", range));
   TunedParameter p{range.substr(0, equals), "", 0, 0, {}};
-  std::vector<std::string> keys;
-  for (const auto& [key, field] : properties.items())
-    if (field.contains("type") && (field["type"] == "number" || field["type"].is_array()))
-      keys.push_back(key);
+  const std::vector<std::string> keys = numbers_of(properties);
   if (std::find(keys.begin(), keys.end(), p.key) == keys.end())
-    throw Error(Errc::usage, "--range",
-                fmt::format("\"{}\" is not a number of this controller{}", p.key, suggestion(p.key, keys)));
+    throw Error(
+        Errc::usage, "--range",
+        fmt::format("\"{}\" is not a real number of this controller{}", p.key, suggestion(p.key, keys)));
   p.unit = properties[p.key].value("x-unit", "");
   p.low = end_of_range(range.substr(equals + 1, dots - equals - 1), p.unit, range);
   p.high = end_of_range(range.substr(dots + 2), p.unit, range);
   if (!(p.low > 0) || !(p.high > p.low))
     throw Error(Errc::usage, "--range",
                 fmt::format("\"{}\": the search is logarithmic; specify 0 < LOW < HIGH", range));
+  const double least = properties[p.key].value("minimum", 0.0);
+  const double most = properties[p.key].value("maximum", p.high);
+  if (p.low < least || p.high > most)
+    throw Error(Errc::usage, "--range",
+                fmt::format("\"{}\": {} must be between {} and {}", range, p.key,
+                            format_quantity(least, p.unit), format_quantity(most, p.unit)));
   return p;
 }
 
@@ -93,11 +107,11 @@ TuningStudy new_tuning(const Document& scene, const TuningChoice& choice) {
   for (const std::string& range : choice.ranges) study.parameters.push_back(parameter_of(range, properties));
   if (choice.ranges.empty()) study.parameters = all_parameters(properties);
   if (study.parameters.empty())
-    throw Error(
-        Errc::usage, "controller",
-        fmt::format("\"{}\" has no parameter with a range for tuning; give one with --range KEY=LOW..HIGH, "
-                    "or another controller with --controller",
-                    study.controller));
+    throw Error(Errc::usage, "controller",
+                fmt::format("\"{}\" has no parameter with a range for tuning; give one with --range "
+                            "KEY=LOW..HIGH, such as {}, "
+                            "or another controller with --controller",
+                            study.controller, fmt::join(numbers_of(properties), ", ")));
   if (study.parameters.size() > kMostParameters)
     throw Error(Errc::usage, "--range",
                 fmt::format("{} parameters are too many for this search; give at most {}",

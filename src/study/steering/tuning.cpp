@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <nlopt.hpp>
 
@@ -102,18 +103,22 @@ class Search {
 
   /// Values of all trials, by point.
   std::vector<std::vector<double>> trials(const std::vector<Point>& points, std::uint64_t first, int seeds) {
+    refused.assign(points.size(), false);
     const Round round = tuning_round(study_, description_of(points, first, seeds), options_.stop);
     if (!sweep(results_, round, options_)) throw Missing{};
     const std::uint64_t key = results_.key(round);
     std::vector<std::vector<double>> all(points.size());
-    for (std::uint64_t task = 0; task < round.size; ++task)
-      all[task / std::uint64_t(seeds)].push_back(results_.find({key, task}).value().front());
+    for (std::uint64_t task = 0; task < round.size; ++task) {
+      const auto values = results_.find({key, task}).value();
+      all[task / std::uint64_t(seeds)].push_back(values[0]);
+      if (values[1] != 0) refused[task / std::uint64_t(seeds)] = true;
+    }
     return all;
   }
   void evaluate(const std::vector<Point>& points) {
     const auto values = trials(points, study_.first_seed, study_.seeds);
     for (std::size_t i = 0; i < points.size(); ++i)
-      evaluated.push_back({points[i], mean_over_seeds(values[i])});
+      evaluated.push_back({points[i], mean_over_seeds(values[i]), refused[i]});
   }
   /// The mean, infinite if it is undefined in some of the trials.
   double cost(std::size_t i) const {
@@ -129,6 +134,7 @@ class Search {
   void refine();
 
   std::vector<TunedPoint> evaluated;
+  std::vector<bool> refused;  ///< of the last trials(): points that the controller refuses
 
  private:
   double cost_at(const Point& p) {
@@ -142,6 +148,7 @@ class Search {
   const TuningStudy& study_;
   ResultStore& results_;
   const SweepOptions& options_;
+  std::exception_ptr failure_;  ///< of an evaluation
 };
 
 void Search::refine() {
@@ -156,8 +163,13 @@ void Search::refine() {
   optimiser.set_xtol_abs(0.01);  // 1 % of the logarithm of the range
   const auto value = [](const std::vector<double>& u, std::vector<double>&, void* self) {
     auto& search = *static_cast<Search*>(self);
-    const double c = search.cost_at(point_at(search.study_, u));
-    return std::isfinite(c) ? c : 1e300;  // NLopt requires numbers
+    try {
+      const double c = search.cost_at(point_at(search.study_, u));
+      return std::isfinite(c) ? c : 1e300;  // NLopt requires numbers
+    } catch (...) {                         // NLopt would replace it by an error of its own
+      search.failure_ = std::current_exception();
+      throw nlopt::forced_stop();
+    }
   };
   optimiser.set_min_objective(value, this);
   std::vector<double> at = position_of(study_, from);
@@ -166,6 +178,8 @@ void Search::refine() {
     optimiser.optimize(at, smallest);
   } catch (const nlopt::roundoff_limited&) {
     // The best point so far is used.
+  } catch (const nlopt::forced_stop&) {
+    std::rethrow_exception(failure_);
   }
 }
 
@@ -185,11 +199,11 @@ Round tuning_round(const TuningStudy& study, const std::string& description,
   round.work = [&study, points, first, seeds, setpoints, stop](std::uint64_t task) -> std::vector<double> {
     try {
       const Scenario s = scenario_of(study, (*points)[task / seeds]);
-      return {trial_value(study, s, setpoints, first + task % seeds, stop)};
+      return {trial_value(study, s, setpoints, first + task % seeds, stop), 0};
     } catch (const Error& e) {
       // A combination that the controller refuses, such as near_px > far_px, is not a candidate.
       if (e.code() != Errc::usage) throw;
-      return {std::numeric_limits<double>::quiet_NaN()};
+      return {std::numeric_limits<double>::quiet_NaN(), 1};
     }
   };
   round.labels = [&study, points, first, seeds](std::uint64_t task) {
@@ -227,10 +241,18 @@ std::optional<Tuning> tune(const TuningStudy& study, ResultStore& results, const
     search.evaluate(design(study));
     search.refine();
     t.best = search.best();
+    if (search.evaluated[t.best].metric.n == 0)
+      throw Error(Errc::usage, study.scene.name,
+                  fmt::format("{} is undefined in every trial of all {} parameter sets, of which the "
+                              "controller refuses {}; choose "
+                              "another --metric, a longer duration, or other ranges",
+                              study.metric, search.evaluated.size(),
+                              std::count_if(search.evaluated.begin(), search.evaluated.end(),
+                                            [](const TunedPoint& p) { return p.refused; })));
     const Point& best = search.evaluated[t.best].value;
     const auto held = search.trials({{}, best}, study.first_held_out, study.held_out_seeds);
-    t.held_out_given = {{}, mean_over_seeds(held[0])};
-    t.held_out_best = {best, mean_over_seeds(held[1])};
+    t.held_out_given = {{}, mean_over_seeds(held[0]), false};
+    t.held_out_best = {best, mean_over_seeds(held[1]), false};
     std::vector<double> difference;
     for (std::size_t k = 0; k < held[0].size(); ++k) difference.push_back(held[1][k] - held[0][k]);
     t.held_out_difference = mean_over_seeds(difference);

@@ -45,6 +45,7 @@ TuningStudy new_tuning(const Document& scene, const TuningChoice& choice);
 struct TunedPoint {
   std::vector<double> value;  ///< of the parameters, in their units; empty: the controller as given
   MeanOverSeeds metric;       ///< `n` below the number of trials: undefined in some of them
+  bool refused = false;       ///< by the controller or another rule of the scenario
 };
 
 struct Tuning {

@@ -164,6 +164,7 @@ std::string control_benchmark_markdown(const ControlBenchmarkResult& r,
     if (const ResultTable t = baseline_of(one, r.cases[i]); !t.rows.empty())
       out += "\nDifferences to the best controller of the baseline:\n\n" + markdown(t);
     if (!one.literature.empty()) out += "\n" + one.literature + "\n";
+    for (const std::string& note : r.cases[i].notes) out += "\nNote: " + note + "\n";
   }
   if (!cycles.empty())
     out +=

@@ -20,6 +20,7 @@ namespace {
 
 Json number(double v) { return std::isfinite(v) ? Json(v) : Json(); }
 Json tuned_mean_json(const MeanOverSeeds& m) {
+  if (m.n == 0) return {};
   return {{"mean", number(m.mean)},
           {"sd", number(m.sd)},
           {"ci95", {number(m.ci95[0]), number(m.ci95[1])}},
@@ -29,7 +30,9 @@ Json tuned_mean_json(const MeanOverSeeds& m) {
 Json point_json(const Tuning& t, const TunedPoint& p) {
   Json values = Json::object();
   for (std::size_t i = 0; i < p.value.size(); ++i) values[t.study.parameters[i].key] = p.value[i];
-  return {{"values", p.value.empty() ? Json() : values}, {"metric", tuned_mean_json(p.metric)}};
+  return {{"values", p.value.empty() ? Json() : values},
+          {"metric", tuned_mean_json(p.metric)},
+          {"refused", p.refused}};
 }
 
 const TunedPoint& best_of(const Tuning& t) { return t.evaluated[t.best]; }
@@ -123,6 +126,12 @@ std::vector<std::string> tuning_notes(const Tuning& t) {
                       "extend the range with --range {}=LOW..HIGH",
                       p.key, shown_value(p, best[i]), p.key));
   }
+  const auto refused =
+      std::count_if(t.evaluated.begin(), t.evaluated.end(), [](const TunedPoint& p) { return p.refused; });
+  if (refused > 0)
+    notes.push_back(fmt::format(
+        "the controller refuses {} of the {} parameter sets; `faba run` with such values states the reason",
+        refused, t.evaluated.size()));
   const MeanOverSeeds& d = t.held_out_difference;
   if (t.best == 0)
     notes.push_back("no parameter set was better than the given one on the training seeds");
