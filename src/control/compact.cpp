@@ -12,7 +12,7 @@
 namespace faba {
 namespace {
 
-constexpr double kHoldStrength = 1e-3;  // T
+constexpr double kRotatingStrength = 1e-3;  // T
 
 /// Mean and variance (theory F3): gathers the swarm until its RMS radius is below `compact_px`, then moves it
 /// to the setpoint, and gathers it again when the radius exceeds `spread_px`.
@@ -132,7 +132,7 @@ Compact::Compact(const Params& p, const ControlContext& c)
     : p_(p), c_(c), steering_(p.motion, p.max_output, c), trap_({}, c) {
   if (p.transport != Transport::field) return;
   const SwarmMotion motion = p.motion.of(c.motion);
-  rotation_.emplace(p.rotation, kHoldStrength, motion, c);
+  rotation_.emplace(p.rotation, kRotatingStrength, motion, c);
   circling_.emplace(motion, *rotation_, p.rotation.gain, c);
 }
 

@@ -6,8 +6,6 @@
 #include <set>
 
 #include "app/scenario/file_kind.h"
-#include "core/hash.h"
-#include "study/steering/controller_trials.h"
 
 namespace faba {
 namespace {
@@ -69,23 +67,6 @@ Json controller_study_schema() {
                               {"description", "The models of the cells, one [[model]] each"},
                               {"items", variant_schema("A model of the cells")}};
   return j;
-}
-
-std::string study_hash(const ControllerStudy& study) {
-  Hash h;
-  h.text("compare-controllers");
-  const Settings all = settings_of(study);
-  for (const Setting& s : *all) h.text(s.scenario.hash());
-  h.value(study.seeds);
-  h.value(study.first_seed);
-  h.text(study.ranked_by + study.label);
-  for (const std::string& name : study.baseline) h.text(name);
-  for (const std::vector<Vec2>& polygon : study.keep_out_px)
-    for (const Vec2 p : polygon) {
-      h.value(p.x);
-      h.value(p.y);
-    }
-  return h.hex();
 }
 
 }  // namespace faba

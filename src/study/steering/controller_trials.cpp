@@ -10,6 +10,7 @@
 #include "app/scenario/parts.h"
 #include "app/scenario/read_scenario.h"
 #include "control/setpoint_count.h"
+#include "core/hash.h"
 #include "study/steering/metric_list.h"
 #include "study/steering/trial.h"
 
@@ -117,6 +118,23 @@ std::vector<std::string> trial_value_names() {
   std::vector<std::string> names;
   for (const MetricInfo* m : compared_metrics()) names.push_back(m->key);
   return names;
+}
+
+std::string study_hash(const ControllerStudy& study) {
+  Hash h;
+  h.text("compare-controllers");
+  const Settings all = settings_of(study);
+  for (const Setting& s : *all) h.text(s.scenario.hash());
+  h.value(study.seeds);
+  h.value(study.first_seed);
+  h.text(study.ranked_by + study.label);
+  for (const std::string& name : study.baseline) h.text(name);
+  for (const std::vector<Vec2>& polygon : study.keep_out_px)
+    for (const Vec2 p : polygon) {
+      h.value(p.x);
+      h.value(p.y);
+    }
+  return h.hex();
 }
 
 }  // namespace faba

@@ -96,9 +96,9 @@ double trial_value(const TuningStudy& study, const Scenario& s, std::size_t setp
 // Thrown through NLopt when the tasks of a round are computed elsewhere.
 struct Missing {};
 
-class Search {
+class TuningSearch {
  public:
-  Search(const TuningStudy& study, ResultStore& results, const SweepOptions& options)
+  TuningSearch(const TuningStudy& study, ResultStore& results, const SweepOptions& options)
       : study_(study), results_(results), options_(options) {}
 
   /// Values of all trials, by point.
@@ -151,7 +151,7 @@ class Search {
   std::exception_ptr failure_;  ///< of an evaluation
 };
 
-void Search::refine() {
+void TuningSearch::refine() {
   const int left = study_.evaluations - int(evaluated.size()) + 1;
   const Point& from = evaluated[best()].value;
   if (left <= 0 || from.empty()) return;
@@ -162,7 +162,7 @@ void Search::refine() {
   optimiser.set_maxeval(left);
   optimiser.set_xtol_abs(0.01);  // 1 % of the logarithm of the range
   const auto value = [](const std::vector<double>& u, std::vector<double>&, void* self) {
-    auto& search = *static_cast<Search*>(self);
+    auto& search = *static_cast<TuningSearch*>(self);
     try {
       const double c = search.cost_at(point_at(search.study_, u));
       return std::isfinite(c) ? c : 1e300;  // NLopt requires numbers
@@ -235,7 +235,7 @@ std::string study_hash(const TuningStudy& study) {
 }
 
 std::optional<Tuning> tune(const TuningStudy& study, ResultStore& results, const SweepOptions& options) {
-  Search search(study, results, options);
+  TuningSearch search(study, results, options);
   Tuning t{study, {}, 0, {}, {}, {}, {}};
   try {
     search.evaluate(design(study));

@@ -18,12 +18,12 @@
 namespace faba {
 namespace {
 
-Json number(double v) { return std::isfinite(v) ? Json(v) : Json(); }
+Json finite_number(double v) { return std::isfinite(v) ? Json(v) : Json(); }
 Json tuned_mean_json(const MeanOverSeeds& m) {
   if (m.n == 0) return {};
-  return {{"mean", number(m.mean)},
-          {"sd", number(m.sd)},
-          {"ci95", {number(m.ci95[0]), number(m.ci95[1])}},
+  return {{"mean", finite_number(m.mean)},
+          {"sd", finite_number(m.sd)},
+          {"ci95", {finite_number(m.ci95[0]), finite_number(m.ci95[1])}},
           {"n", m.n}};
 }
 

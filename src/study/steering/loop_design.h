@@ -1,0 +1,27 @@
+#pragma once
+#include <vector>
+
+#include "app/scenario/scenario.h"
+#include "control/plant/linear_design.h"
+
+namespace faba {
+
+/// A pole of the sampled loop, and the continuous motion that it stands for.
+struct LoopMode {
+  std::complex<double> pole;
+  double time_constant = 0;  ///< s
+  double frequency = 0;      ///< Hz; 0: no oscillation
+  double damping = 1;        ///< ratio
+};
+
+/// The linear design of the controller of a scenario, with the loop that it makes.
+struct LoopDesign {
+  LqrDesign design;
+  int delay = 0;  ///< frames
+  Margins margins;
+  std::vector<LoopMode> modes;
+};
+/// Throws Error(usage) if the controller has no design, or no field moves the swarm.
+LoopDesign loop_design(const Scenario& s);
+
+}  // namespace faba
