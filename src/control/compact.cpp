@@ -35,10 +35,6 @@ class Compact final : public Controller {
     double max_output = 5;
     RotationParams rotation;
     MotionParams motion;
-    std::vector<Trait> traits() const {
-      return gather == Gathering::trap || transport == Transport::trap ? std::vector{Trait::seeks_null}
-                                                                       : std::vector<Trait>{};
-    }
   };
   static constexpr std::array kTraits = {Trait::feedback};
   static Schema<Params> schema();

@@ -202,6 +202,10 @@ nlohmann::ordered_json controllers_json(const ControllerComparison& r) {
              {"metrics", Json::object()},
              {"excess_over_best_px", c.excess_over_best ? mean_json(*c.excess_over_best) : Json()}};
     for (const auto& [name, m] : c.metrics) one["metrics"][name] = mean_json(m);
+    if (!c.baseline.empty()) {
+      one["baseline"] = c.baseline;
+      for (const auto& [name, m] : c.minus_baseline) one["minus_baseline"][name] = mean_json(m);
+    }
     j["combinations"].push_back(std::move(one));
   }
   return j;
