@@ -2,7 +2,7 @@
 """Measures whether the controllers lqr and mpc, with the estimator kalman on pictures, keep the frame rate of a bench that is simulated in real
 time on the same machine. Writes bench/results/control_cycle.md.
 
-    bench/control_cycle.py [--program build/faba] [--seconds 600] [--out bench/results]
+    bench/control_cycle.py [--program build/faba] [--controllers lqr,mpc] [--seconds 600] [--out bench/results]
 
 Exit status 1 if 99.9 % of the cycles are not within a frame, or more than 0.1 % of the frames are dropped.
 """
@@ -20,6 +20,7 @@ KALMAN = 'estimator={type="kalman",source="image"}'
 def main():
     p = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     p.add_argument("--program", type=pathlib.Path, default=ROOT / "build/faba", help="the program, default build/faba")
+    p.add_argument("--controllers", default="lqr,mpc", help="controllers that are measured, default lqr,mpc")
     p.add_argument("--seconds", type=int, default=600, help="duration for each controller, default 600 s")
     p.add_argument("--out", type=pathlib.Path, default=HERE / "results", help="folder of the results, default bench/results")
     o = p.parse_args()
@@ -28,7 +29,7 @@ def main():
             "pictures, both videos recorded. The bench is simulated in real time on the same machine.", ""]
     met = True
     with tempfile.TemporaryDirectory() as name:
-        for controller in ("lqr", "mpc"):
+        for controller in o.controllers.split(","):
             run, rows = latency(o.program.resolve(), pathlib.Path(name), o.seconds, f'controller={{type="{controller}"}}', KALMAN)
             lost = run["frames_dropped"] / (run["frames"] + run["frames_dropped"])
             met = met and run["command_ms"]["p999"] <= FRAME_MS and lost <= 1e-3
