@@ -66,9 +66,10 @@ class Checks:
         page = self.root / make_docs.COLUMNS_PAGE
         if page in self.text and make_docs.with_columns(self.program, self.text[page]) != self.text[page]:
             self.fail(page, "the table of columns differs from the descriptions in the program; run: tools/make_docs.py")
-        functions = self.root / python_verbs.FILE
-        if functions.exists() and functions.read_text() != python_verbs.module(self.program):
-            self.fail(functions, "differs from the verbs of the program; run: tools/make_docs.py")
+        for file, text in python_verbs.files(self.program).items():
+            functions = self.root / file
+            if functions.parent.exists() and (not functions.exists() or functions.read_text() != text):
+                self.fail(functions, "differs from the verbs of the program; run: tools/make_docs.py")
 
     def verbs(self, folder):
         page = self.root / "docs/formats/cli.md"

@@ -269,7 +269,8 @@ def main():
     print(f"docs/reference: {len(wanted)} pages")
     page = options.root / COLUMNS_PAGE
     page.write_text(with_columns(program, page.read_text()))
-    (options.root / python_verbs.FILE).write_text(python_verbs.module(program))
+    for file, text in python_verbs.files(program).items():
+        (options.root / file).write_text(text)
     package = program.parent / "python"
     if list(package.glob("faba/_faba*.so")):
         subprocess.run(["/usr/bin/python3", pathlib.Path(__file__).with_name("python_reference.py"), "--root", options.root],

@@ -100,4 +100,13 @@ void Progress::update(std::uint64_t done, std::uint64_t total, const std::string
   std::fflush(stderr);
 }
 
+std::function<void(std::uint64_t, std::uint64_t)> over_rounds(Progress& bar, std::uint64_t total) {
+  return [&bar, total, before = std::uint64_t(0), last = std::uint64_t(0)](std::uint64_t done,
+                                                                           std::uint64_t) mutable {
+    if (done < last) before += last;
+    last = done;
+    bar.update(std::min(before + done, total), total);
+  };
+}
+
 }  // namespace faba::cli

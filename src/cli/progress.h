@@ -1,6 +1,7 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 namespace faba::cli {
@@ -30,5 +31,9 @@ class Progress {
   std::uint64_t first_ = 0;  ///< work done by an earlier process: not part of the speed
   bool started_ = false;
 };
+
+/// Progress of a study of several rounds, each of which reports its own work from 0. `total`: of all rounds.
+/// `bar` must outlive the function.
+std::function<void(std::uint64_t done, std::uint64_t)> over_rounds(Progress& bar, std::uint64_t total);
 
 }  // namespace faba::cli

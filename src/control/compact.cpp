@@ -94,16 +94,14 @@ Schema<Compact::Params> Compact::schema() {
             .min = 0.1,
             .max = 1e6,
             .doc = "Time without a decrease of the RMS radius by 1 %, after which the swarm is moved "
-                   "although it is wider "
-                   "than compact_px",
+                   "although it is wider than compact_px",
             .source = "assumed"})
       .add("direction", &Params::direction,
            {.unit = "rad",
             .min = -100,
             .max = 100,
             .doc = "Direction of the edge at which the swarm is gathered, counter-clockwise from x; default: "
-                   "that of "
-                   "the setpoint from the centre of the drop, or without a drop the nearest corner"})
+                   "that of the setpoint from the centre of the drop, or without a drop the nearest corner"})
       .add("speed_fraction", &Params::speed_fraction,
            {.min = 1e-3,
             .max = 0.9,
@@ -120,8 +118,7 @@ Schema<Compact::Params> Compact::schema() {
       })
       .validity(
           "A uniform field without walls cannot make a swarm smaller (F1). The transport by the field "
-          "spreads the swarm "
-          "along the path by the differences in speed; two coils have no trap.");
+          "spreads the swarm along the path by the differences in speed; two coils have no trap.");
 }
 
 Compact::Compact(const Params& p, const ControlContext& c)
@@ -186,8 +183,7 @@ Command Compact::swim(const Estimate& e, Vec2 target, double dt) {
     holding_ = false;
   if (!holding_) return steering_.command(e, (1 / norm(way)) * way);
   const double age = e.predicted ? 0 : c_.delay_frames * c_.frame_period;
-  const Vec2 drift = circling_->drift(target - circling_->centre(e.centroid, age, 1, *rotation_));
-  const Vec2 field = rotation_->field() + circling_->bias(drift, *rotation_);
+  const Vec2 field = circling_->hold(e.centroid, target, age, *rotation_);
   return steering_.linear(e.centroid, (1 / steering_.strongest()) * field);
 }
 

@@ -53,10 +53,8 @@ RotatingHold::RotatingHold(const Params& p, const ControlContext& c)
 Command RotatingHold::update(const Estimate& e, const Target& target, double dt) {
   if (!(e.visible > 0) || !std::isfinite(norm(e.centroid))) return steering_.none();
   rotation_.advance(dt);
-  const Vec2 error = target.position - swarm_.centre(e.centroid, e.predicted ? 0 : delay_, 1, rotation_);
-  const Vec2 drift = std::isfinite(norm(error)) ? swarm_.drift(error) : Vec2{};
-  return steering_.linear(e.centroid,
-                          (1 / steering_.strongest()) * (rotation_.field() + swarm_.bias(drift, rotation_)));
+  const Vec2 field = swarm_.hold(e.centroid, target.position, e.predicted ? 0 : delay_, rotation_);
+  return steering_.linear(e.centroid, (1 / steering_.strongest()) * field);
 }
 
 }  // namespace

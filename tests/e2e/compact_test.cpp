@@ -43,15 +43,16 @@ TEST_CASE(
   CHECK(*least <= c.first() / 3);
   CHECK(least - c.radius.begin() < 60 * 60);
   // Moved by L, the spread of the speeds, 45 / 186 of the mean (theory B4), adds sd(v) / v L along the way
-  // (F1 b). Cells that differ in moment turn at different times, and some start behind others: between 0.7
-  // and 1.5 of that.
+  // (F1 b). Four standard errors of a standard deviation of 300 cells are 16 %; cells that turn late add a
+  // few percent.
   const double added = 45.0 / 186 * 330, final_radius = mean_after(c.radius, 0.8);
   const double loss = std::sqrt(final_radius * final_radius - *least * *least);
   MESSAGE("RMS radius px: ", c.first(), " at first, ", *least, " at the edge, ", final_radius,
           " at the setpoint");
-  CHECK(loss > 0.7 * added);
-  CHECK(loss < 1.5 * added);
-  CHECK(mean_after(c.distance, 0.8) < 10);
+  CHECK(loss > 0.8 * added);
+  CHECK(loss < 1.2 * added);
+  // The mean circles with v / Omega = 186 um/s / (2 pi 5 Hz) = 6.5 px; its centre is held to a pixel.
+  CHECK(mean_after(c.distance, 0.8) < 7.5);
 }
 
 TEST_CASE("compact: a four-coil trap reaches its equilibrium, and moves the swarm without a loss") {
@@ -76,8 +77,10 @@ TEST_CASE("compact: a four-coil trap reaches its equilibrium, and moves the swar
   // Over half of the drop: from its centre to 170 px and back is within the linear range; the zero arrives
   // after 170 px / (0.2 * 203 px/s) = 4 s.
   const Course moved = course(cells + "--set reference.setpoint_px='[189.5,359.5]'");
-  CHECK(mean_after(moved.distance, 0.5) < 0.2 * equilibrium);
-  CHECK(mean_after(moved.radius, 0.5) < 1.15 * equilibrium);
+  // Four standard errors of the mean of 300 cells, equilibrium / sqrt 300, and of their RMS radius, 2.9 %
+  // each.
+  CHECK(mean_after(moved.distance, 0.5) < 4 * equilibrium / std::sqrt(300.0));
+  CHECK(mean_after(moved.radius, 0.5) < 1.12 * equilibrium);
 }
 
 TEST_CASE("compact: without walls a uniform field cannot make a swarm smaller (F1)") {

@@ -3,7 +3,7 @@
 import dataclasses
 import math
 
-SAME, CORRECTED, VIDEOS, PENDING, DIFFERS = "same", "corrected", "needs the original videos", "pending", "DIFFERS"
+SAME, CORRECTED, VIDEOS, LATER, PENDING, DIFFERS = "same", "corrected", "needs the original videos", "later work", "pending", "DIFFERS"
 
 
 def shown(x, digits=4):

@@ -4,7 +4,7 @@ import collections
 import html
 import re
 
-from reproduce_rows.check import CORRECTED, DIFFERS, PENDING, SAME, VIDEOS, shown, verdict
+from reproduce_rows.check import CORRECTED, DIFFERS, LATER, PENDING, SAME, VIDEOS, shown, verdict
 
 ENDS = 2  # of a long list of commands, this many at the start and at the end are not folded
 STYLE = """
@@ -29,11 +29,12 @@ pre{white-space:pre-wrap;overflow-wrap:anywhere}
 .own .s-muted{stroke:#a4adb6}.own .f-muted{fill:#a4adb6}.own .f-text{fill:#e6e9ec}.own .box.s-blue{fill:#1f2429}}
 @media screen and (max-width:720px){.index .there{display:none}}
 """
-CLASS = {SAME: "same", CORRECTED: "corrected", VIDEOS: "videos", PENDING: "pending", DIFFERS: "differs"}
+CLASS = {SAME: "same", CORRECTED: "corrected", VIDEOS: "videos", LATER: "videos", PENDING: "pending", DIFFERS: "differs"}
 WORDS = {
     SAME: "agrees with the thesis",
     CORRECTED: "the thesis has an error here; the reason is given",
     VIDEOS: "shown on rendered experiments with known parameters",
+    LATER: "not in the thesis, on one of its experiments",
     PENDING: "not yet part of the program",
     DIFFERS: "outside the accepted range, or not computed",
 }
@@ -58,7 +59,7 @@ def count(results):
 
 
 def summary(counts):
-    return ", ".join(f"{counts[v]} {v}" for v in (SAME, CORRECTED, VIDEOS, PENDING, DIFFERS) if counts[v])
+    return ", ".join(f"{counts[v]} {v}" for v in (SAME, CORRECTED, VIDEOS, LATER, PENDING, DIFFERS) if counts[v])
 
 
 def _fact(name, content):
@@ -129,6 +130,7 @@ def extent(results, of):
     groups = (
         (counts[SAME] + counts[CORRECTED], "reproduced, with every value in its accepted range"),
         (counts[VIDEOS], "shown by the same procedure on rendered experiments, because the videos of the thesis are not public"),
+        (counts[LATER], "on an experiment of the thesis, with parts that it does not have"),
         (counts[PENDING], "not computed yet"),
         (counts[DIFFERS], "outside the accepted range, or not computed"),
     )
@@ -156,7 +158,7 @@ def page(results, of, style, version):
     differing = [row.item for row, found in results if verdict(row.verdict, found) == DIFFERS]
     cards = "".join(
         f"<div><dt>{badge(v)}</dt><dd><b>{counts[v]}</b><span>{WORDS[v]}</span></dd></div>\n"
-        for v in (SAME, CORRECTED, VIDEOS, PENDING, DIFFERS)
+        for v in (SAME, CORRECTED, VIDEOS, LATER, PENDING, DIFFERS)
         if counts[v]
     )
     warning = (

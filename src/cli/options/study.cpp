@@ -156,6 +156,14 @@ int run_study_verb(StudyJob& job, const StudyOptions& v, const SweepOptions& opt
   return 0;
 }
 
+Provenance study_provenance(const StudySource& source) {
+  Provenance p;
+  p.add(source.file);
+  for (std::size_t i = 0; i + 1 < source.options.size(); i += 2)
+    p.options.emplace_back(source.options[i], source.options[i + 1]);
+  return p;
+}
+
 void finish(StudyDirectory& dir, const std::string& name, nlohmann::ordered_json j, const Provenance& p,
             unsigned threads) {
   add_provenance(j, p);

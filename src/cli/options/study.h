@@ -42,6 +42,8 @@ std::optional<std::filesystem::path> run_study(StudyJob& job, const StudyOptions
 /// left.
 int run_study_verb(StudyJob& job, const StudyOptions& v, const SweepOptions& options, const Common& c);
 
+/// The study file and the options that change the result.
+Provenance study_provenance(const StudySource& source);
 /// Writes NAME.json with the provenance, the last file of a study, and date, threads and directory to
 /// study.json.
 void finish(StudyDirectory& dir, const std::string& name, nlohmann::ordered_json j, const Provenance& p,

@@ -54,23 +54,16 @@ class ControlBenchmarkJob final : public StudyJob {
 
   bool run(StudyDirectory& dir, SweepOptions options, const Common& c) override {
     Progress bar("trials", !c.quiet && !c.json);
-    std::uint64_t all = 0, before = 0, last = 0;
+    std::uint64_t all = 0;
     for (const BenchmarkCase& one : benchmark_.cases)
       all += one.study.controllers.size() * std::max<std::size_t>(1, one.study.delays.size()) *
              std::size_t(one.study.seeds);
-    options.progress = [&](std::uint64_t done, std::uint64_t) {
-      if (done < last) before += last;
-      last = done;
-      bar.update(std::min(before + done, all), all);
-    };
+    options.progress = over_rounds(bar, all);
     result_ = run_control_benchmark(benchmark_, dir.results(), options);
     bar.clear();
     if (!result_) return false;
     const std::vector<CycleTime> cycles = measured_cycle_times(benchmark_, options.stop);
-    Provenance provenance;
-    provenance.add(source_.file);
-    for (std::size_t i = 0; i + 1 < source_.options.size(); i += 2)
-      provenance.options.emplace_back(source_.options[i], source_.options[i + 1]);
+    const Provenance provenance = study_provenance(source_);
     write_file(dir.path() / "control.md", control_benchmark_markdown(*result_, cycles));
     write_file(dir.path() / "cycles.csv", cycle_times_csv(cycles));
     write_file(dir.path() / "report.html", control_benchmark_page(*result_, cycles, provenance));

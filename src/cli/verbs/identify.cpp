@@ -114,11 +114,8 @@ class IdentifyJob final : public StudyJob {
     bar.clear();
     if (!result_) return false;
     write_best_scene(*result_, dir.path());
-    Provenance provenance;
-    provenance.add(source_.file);
+    Provenance provenance = study_provenance(source_);
     for (const ResponseInput& video : study_.videos) provenance.add(video.file);
-    for (std::size_t i = 0; i + 1 < source_.options.size(); i += 2)
-      provenance.options.emplace_back(source_.options[i], source_.options[i + 1]);
     write_file(dir.path() / "identify.html", identify_page(*result_, provenance));
     finish(dir, report(), identify_json(*result_), provenance, options.threads);
     return true;

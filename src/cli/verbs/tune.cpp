@@ -11,8 +11,6 @@
 #include "core/file.h"
 #include "core/toml.h"
 #include "study/pages/steering/tuning_report.h"
-#include "study/quality/rounded.h"
-#include "study/steering/metric_list.h"
 #include "study/steering/tuning.h"
 
 namespace faba::cli {
@@ -66,13 +64,6 @@ TuningStudy study_of(const StudySource& source) {
   return study;
 }
 
-std::string metric_text(const Tuning& t, const MeanOverSeeds& m) {
-  const MetricInfo& info = metric(t.study.metric);
-  if (m.n == 0) return "undefined";
-  return fmt::format("{} {}", with_uncertainty(m.mean * info.shown, (m.mean - m.ci95[0]) * info.shown),
-                     info.unit);
-}
-
 void summary(const Tuning& t) {
   const std::vector<double>& best = t.evaluated[t.best].value;
   for (std::size_t i = 0; i < best.size(); ++i) {
@@ -81,7 +72,8 @@ void summary(const Tuning& t) {
                p.given ? fmt::format("  (given: {})", shown_value(p, *p.given)) : "");
   }
   fmt::print("{}, held-out seeds: {} tuned, {} given (+- half of the 95 % interval of the mean)\n",
-             t.study.metric, metric_text(t, t.held_out_best.metric), metric_text(t, t.held_out_given.metric));
+             t.study.metric, tuned_text(t, t.held_out_best.metric, "+-"),
+             tuned_text(t, t.held_out_given.metric, "+-"));
 }
 
 class TuneJob final : public StudyJob {
@@ -94,21 +86,13 @@ class TuneJob final : public StudyJob {
 
   bool run(StudyDirectory& dir, SweepOptions options, const Common& c) override {
     Progress bar("trials", !c.quiet && !c.json);
-    // The rounds follow each other; the search may end early.
+    // The search may end early.
     const auto most = std::uint64_t((study_.evaluations + 2) * study_.seeds + 2 * study_.held_out_seeds);
-    std::uint64_t before = 0, last = 0;
-    options.progress = [&](std::uint64_t done, std::uint64_t) {
-      if (done < last) before += last;
-      last = done;
-      bar.update(std::min(before + done, most), most);
-    };
+    options.progress = over_rounds(bar, most);
     result_ = tune(study_, dir.results(), options);
     bar.clear();
     if (!result_) return false;
-    Provenance provenance;
-    provenance.add(source_.file);
-    for (std::size_t i = 0; i + 1 < source_.options.size(); i += 2)
-      provenance.options.emplace_back(source_.options[i], source_.options[i + 1]);
+    const Provenance provenance = study_provenance(source_);
     Json scene = result_->scene;
     write_file(dir.path() / "tuned.toml", to_toml(scene));
     write_file(dir.path() / "report.html", tuning_page(*result_, provenance));

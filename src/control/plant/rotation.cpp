@@ -173,6 +173,11 @@ Vec2 CirclingSwarm::drift(Vec2 error) const {
   return size > most ? (most / size) * wanted : wanted;
 }
 
+Vec2 CirclingSwarm::hold(Vec2 position, Vec2 target, double age, const Rotation& r) const {
+  const Vec2 error = target - centre(position, age, 1, r);
+  return r.field() + bias(std::isfinite(norm(error)) ? drift(error) : Vec2{}, r);
+}
+
 Vec2 CirclingSwarm::bias(Vec2 drift, const Rotation& r) const {
   if (!(mobility() > 0)) return {};
   const double per_drift = r.effective() / mobility();

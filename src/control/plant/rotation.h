@@ -58,6 +58,10 @@ class CirclingSwarm {
   double gain() const { return gain_; }  ///< 1/s; of the drift per error
   /// Drift towards an error, m: proportional, limited to max_drift().
   Vec2 drift(Vec2 error) const;
+  /// The field times the polarity, T, that holds a swarm at `position`, m, and moves it to `target`: the
+  /// rotating field and the bias. A target that is not finite: the rotating field only. `age`: as for
+  /// centre().
+  Vec2 hold(Vec2 position, Vec2 target, double age, const Rotation& r) const;
   /// The constant field times the polarity for a drift, T.
   Vec2 bias(Vec2 drift, const Rotation& r) const;
   /// The drift by a constant field, T: the inverse of bias().

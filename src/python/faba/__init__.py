@@ -31,7 +31,10 @@ from ._program import Measurement
 from ._register import register_lazily as _register_lazily
 from .batch import compare_controllers, simulate
 from .control import Controller, Estimator, Reference
-from .measure import activity, calibrate, compare, drop, field_fit, identify, moment, optics, scale, track
+from .measure_models import calibrate, identify, moment
+from .measure_pictures import drop, scale
+from .measure_setup import field_fit, optics
+from .measure_videos import activity, compare, track
 from .recorded import Run, bench, replay, resume, run
 
 field = Field

@@ -109,8 +109,7 @@ TuningStudy new_tuning(const Document& scene, const TuningChoice& choice) {
   if (study.parameters.empty())
     throw Error(Errc::usage, "controller",
                 fmt::format("\"{}\" has no parameter with a range for tuning; give one with --range "
-                            "KEY=LOW..HIGH, such as {}, "
-                            "or another controller with --controller",
+                            "KEY=LOW..HIGH, such as {}, or another controller with --controller",
                             study.controller, fmt::join(numbers_of(properties), ", ")));
   if (study.parameters.size() > kMostParameters)
     throw Error(Errc::usage, "--range",

@@ -153,7 +153,7 @@ class TuningSearch {
 
 void TuningSearch::refine() {
   const int left = study_.evaluations - int(evaluated.size()) + 1;
-  const Point& from = evaluated[best()].value;
+  const Point from = evaluated[best()].value;
   if (left <= 0 || from.empty()) return;
   nlopt::opt optimiser(nlopt::LN_SBPLX, unsigned(from.size()));
   optimiser.set_lower_bounds(0);
@@ -242,13 +242,13 @@ std::optional<Tuning> tune(const TuningStudy& study, ResultStore& results, const
     search.refine();
     t.best = search.best();
     if (search.evaluated[t.best].metric.n == 0)
-      throw Error(Errc::usage, study.scene.name,
-                  fmt::format("{} is undefined in every trial of all {} parameter sets, of which the "
-                              "controller refuses {}; choose "
-                              "another --metric, a longer duration, or other ranges",
-                              study.metric, search.evaluated.size(),
-                              std::count_if(search.evaluated.begin(), search.evaluated.end(),
-                                            [](const TunedPoint& p) { return p.refused; })));
+      throw Error(
+          Errc::usage, study.scene.name,
+          fmt::format("{} is undefined in every trial of all {} parameter sets, of which the "
+                      "controller refuses {}; choose another --metric, a longer duration, or other ranges",
+                      study.metric, search.evaluated.size(),
+                      std::count_if(search.evaluated.begin(), search.evaluated.end(),
+                                    [](const TunedPoint& p) { return p.refused; })));
     const Point& best = search.evaluated[t.best].value;
     const auto held = search.trials({{}, best}, study.first_held_out, study.held_out_seeds);
     t.held_out_given = {{}, mean_over_seeds(held[0]), false};

@@ -37,13 +37,6 @@ Json point_json(const Tuning& t, const TunedPoint& p) {
 
 const TunedPoint& best_of(const Tuning& t) { return t.evaluated[t.best]; }
 
-std::string tuned_text(const Tuning& t, const MeanOverSeeds& m) {
-  const MetricInfo& info = metric(t.study.metric);
-  if (m.n == 0) return "undefined";
-  return fmt::format("{} {}", with_uncertainty(m.mean * info.shown, (m.mean - m.ci95[0]) * info.shown, "±"),
-                     info.unit);
-}
-
 // The mean of every parameter set, in the order of the search, and the smallest so far.
 Figure search_figure(const Tuning& t) {
   const MetricInfo& info = metric(t.study.metric);
@@ -107,6 +100,14 @@ std::string comparison_table(const Tuning& t) {
 }
 
 }  // namespace
+
+std::string tuned_text(const Tuning& t, const MeanOverSeeds& m, const char* plus_minus) {
+  const MetricInfo& info = metric(t.study.metric);
+  if (m.n == 0) return "undefined";
+  return fmt::format("{} {}",
+                     with_uncertainty(m.mean * info.shown, (m.mean - m.ci95[0]) * info.shown, plus_minus),
+                     info.unit);
+}
 
 std::string shown_value(const TunedParameter& p, double value) {
   return p.unit == "px" ? fmt::format("{:.4g} px", value)

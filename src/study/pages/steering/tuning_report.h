@@ -13,6 +13,9 @@ namespace faba {
 std::vector<std::string> tuning_notes(const Tuning& t);
 nlohmann::ordered_json tuning_json(const Tuning& t);
 std::string tuning_page(const Tuning& t, const Provenance& provenance);
+/// The metric that is minimised with half of its interval and its unit, "0.31 ± 0.02 px"; `plus_minus`: the
+/// sign.
+std::string tuned_text(const Tuning& t, const MeanOverSeeds& m, const char* plus_minus = "±");
 /// A value of a parameter with its unit, such as "0.12 s".
 std::string shown_value(const TunedParameter& p, double value);
 
