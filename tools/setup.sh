@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the packages for building Faba on Debian 12, and those for the purposes given as arguments (test, bench, lint,
-# docs, fuzz, engines, python, torch). Prints the packages that it installs; does nothing if all of them are installed.
+# docs, fuzz, engines, python, torch, package). Prints the packages that it installs; does nothing if all of them are installed.
 set -euo pipefail
 
 packages=(g++ cmake ninja-build ccache pkg-config libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev
@@ -23,8 +23,9 @@ for what in "$@"; do
     docs) packages+=(python3 ffmpeg) ;;
     fuzz) packages+=(clang libclang-rt-14-dev) ;;
     engines) packages+=(python3 slurmctld slurmd slurm-client munge parallel python3-distributed) ;;
+    package) packages+=(dpkg-dev debhelper dh-python python3-all lintian pandoc bash-completion man-db debootstrap desktop-file-utils appstream) ;;
     torch) packages+=(python3-torch) ;;
-    *) echo "setup.sh: \"$what\" is not one of test, bench, lint, docs, fuzz, engines, python, torch" >&2; exit 2 ;;
+    *) echo "setup.sh: \"$what\" is not one of test, bench, lint, docs, fuzz, engines, python, torch, package" >&2; exit 2 ;;
   esac
 done
 
