@@ -41,7 +41,8 @@ package: setup        ## build the Debian packages faba and faba-camera: build/p
 	@packaging/package.sh
 
 test-package: package ## install the packages in a bare Debian 12 and use them as an unprivileged user; build them twice and compare
-	@tests/packaging/package_test.sh || { code=$$?; [ $$code -eq 77 ] || exit $$code; }
+	@/usr/bin/python3 tests/packaging/package_test.py --camera || { code=$$?; [ $$code -eq 77 ] || exit $$code; }
+	@tests/packaging/same_bytes.sh
 
 setup:                ## install the packages for building (apt-get; with sudo if not root)
 	@$(SETUP)
