@@ -43,7 +43,7 @@ InstalledPart ffmpeg() {
     libav::function("avformat_open_input");
     return {"FFmpeg", true, true, "its libraries are loaded"};
   } catch (const Error& e) {
-    return {"FFmpeg", false, true, fmt::format("{}: videos cannot be read or written", e.reason())};
+    return {"FFmpeg", false, true, "videos cannot be read or written: " + e.reason()};
   }
 }
 

@@ -47,7 +47,7 @@ fs::path program_file(const std::string& name) {
   const fs::path beside = program_folder() / name;
   const fs::path installed = program_folder().parent_path() / "libexec" / "faba" / name;
   std::error_code ec;
-  return !fs::exists(beside, ec) && fs::exists(installed, ec) ? installed : beside;
+  return !fs::exists(beside, ec) && fs::exists(installed.parent_path(), ec) ? installed : beside;
 }
 
 void set_program_folder(const fs::path& path) { named_folder() = path; }

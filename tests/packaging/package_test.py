@@ -62,12 +62,12 @@ class Root:
 
     def run(self, command, user=None, cwd="/", check=True, env=None, timeout=600):
         """Runs a shell command in the root, in a namespace with its own /proc. Returns the finished process."""
-        shell = f"cd {cwd} && {command}"
+        shell = f"cd {cwd} || exit 1; {command}"
         if user:
             shell = f"exec setpriv --reuid={user} --regid={user} --clear-groups -- /bin/sh -c {quoted(shell)}"
-        words = ["unshare", "--mount", "--pid", "--fork", "--kill-child", "/bin/sh", "-c",
-                 f"mount -t proc proc {self.folder}/proc; mount -t tmpfs tmpfs {self.folder}/run; mount --bind /dev {self.folder}/dev; "
-                 f"exec chroot {self.folder} /bin/bash -c {quoted(shell)}"]
+        words = ["/usr/bin/unshare", "--mount", "--pid", "--fork", "--kill-child", "/bin/sh", "-c",
+                 f"/bin/mount -t proc proc {self.folder}/proc; /bin/mount -t tmpfs tmpfs {self.folder}/run; /bin/mount --bind /dev {self.folder}/dev; "
+                 f"exec /usr/sbin/chroot {self.folder} /bin/bash -c {quoted(shell)}"]
         variables = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "LC_ALL": "C.UTF-8", "DEBIAN_FRONTEND": "noninteractive", "HOME": f"/home/{user}" if user else "/root"}
         done = subprocess.run(words, capture_output=True, text=True, env=variables if env is None else env, timeout=timeout)
         if check and done.returncode:
@@ -108,8 +108,9 @@ def state_hash(text):
     return found[1]
 
 
-def install(root, packages, before):
+def install(root, packages, folder, before):
     root.run("apt-get update -qq && apt-get install -y -qq --no-install-recommends man-db bash-completion")
+    root.run(f"useradd --create-home {USER} && install -d -o {USER} {folder}")
     before |= root.files()
     target = root.folder / "packages"
     target.mkdir(exist_ok=True)
@@ -235,10 +236,9 @@ def main():
         print(f"SKIPPED all checks: {reason}")
         return 77
     c = Checks(root)
-    c.check("apt installs faba", lambda: install(root, o.packages, before))
+    c.check("apt installs faba", lambda: install(root, o.packages, c.folder, before))
     if c.failed:
         return 1
-    root.run(f"useradd --create-home {USER} && install -d -o {USER} {c.folder}")
     for what, test in (("faba run", check_run), ("faba lab", check_lab), ("faba rig run on a simulated bench", check_bench), ("import faba", check_python),
                        ("virtual environment", check_environment), ("man", check_manual), ("completion", check_completion), ("faba init", check_examples),
                        ("faba doctor", check_doctor), ("hostile environments", check_hostile)):
