@@ -1,7 +1,14 @@
 #!/usr/bin/env bash
 # Installs the packages for building Faba on Debian 12, and those for the purposes given as arguments (test, bench, lint,
-# docs, fuzz, engines, python, torch). Prints the packages that it installs; does nothing if all of them are installed.
+# docs, fuzz, engines, python, torch, arm64, portability). Prints the packages that it installs; does nothing if all of them are installed.
+# With --print as the first argument it only prints the names of the packages, one per line.
 set -euo pipefail
+
+print=
+if [ "${1:-}" = --print ]; then
+  print=1
+  shift
+fi
 
 packages=(g++ cmake ninja-build ccache pkg-config libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev
   libeigen3-dev libnlopt-cxx-dev libnanoflann-dev zlib1g-dev libssl-dev libhdf5-dev libdeflate-dev libopencv-core-dev libopencv-imgproc-dev libopencv-video-dev libopencv-videoio-dev
@@ -24,9 +31,16 @@ for what in "$@"; do
     fuzz) packages+=(clang libclang-rt-14-dev) ;;
     engines) packages+=(python3 slurmctld slurmd slurm-client munge parallel python3-distributed) ;;
     torch) packages+=(python3-torch) ;;
-    *) echo "setup.sh: \"$what\" is not one of test, bench, lint, docs, fuzz, engines, python, torch" >&2; exit 2 ;;
+    arm64) packages+=(doctest-dev python3 g++-aarch64-linux-gnu qemu-user) ;;
+    portability) packages+=(doctest-dev python3 clang-16) ;;
+    *) echo "setup.sh: \"$what\" is not one of test, bench, lint, docs, fuzz, engines, python, torch, arm64, portability" >&2; exit 2 ;;
   esac
 done
+
+if [ -n "$print" ]; then
+  printf '%s\n' "${packages[@]}"
+  exit 0
+fi
 
 missing=()
 installed=$(dpkg-query -W -f '${Package} ${Status}\n' 2>/dev/null | awk '$4 == "installed" { print $1 }')
