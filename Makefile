@@ -3,7 +3,7 @@ SHELL := /bin/bash
 JOBS ?= $(shell nproc)
 SETUP = tools/setup.sh
 
-.PHONY: run lab page python train-example test test-engines test-arm64 test-portability arm64 setup build bench accuracy reproduce format lint asan tsan dev fuzz docs clean help
+.PHONY: run lab page python train-example test test-engines test-arm64 test-portability arm64 demo test-demo setup build bench accuracy reproduce format lint asan tsan dev fuzz docs clean help
 
 run: build            ## build the program and run scenes/steer.toml: a swarm is steered along a route
 	@build/faba run scenes/steer.toml --seed 1 --force --out runs/steer
@@ -22,6 +22,13 @@ test-engines: build   ## install Slurm, Dask and GNU parallel, and test studies 
 	@# Exit code 77: nothing failed, but checks could not run; they are printed.
 	@/usr/bin/python3 tests/e2e/study_engines_test.py --program build/faba --kills || \
 	  { code=$$?; [ $$code -eq 77 ] || exit $$code; echo "make test-engines: some checks were SKIPPED; their reasons are above"; }
+
+demo:                 ## build the demonstration in a browser, with Emscripten: build/demo/index.html
+	@$(SETUP) demo
+	@JOBS=$(JOBS) tools/demo.sh
+
+test-demo: build demo ## test the demonstration in a browser: state hashes of the program, speed, size, accessibility
+	@node tests/e2e/demo_test.mjs --program build/faba --root . --demo build/demo
 
 test-arm64:           ## cross-build the engine for arm64 and run its tests under emulation: golden hashes, physics, contract, field, control
 	@$(SETUP) arm64
