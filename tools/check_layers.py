@@ -30,6 +30,7 @@ MAY = {
     "cli": "core app study server",
     "python": "core field vision sim control rig app study",
     "guard": "core rig",
+    "demo": "core app server",
 }
 # Subfolders and the sibling subfolders that each may include; "." is the folder itself. In folders that are not listed,
 # all subfolders may include each other.

@@ -8,8 +8,8 @@
 #include <string>
 #include <type_traits>
 
-/// Functions of the C++20 library that the library of Emscripten 3.1 (libc++ 13) lacks. With other compilers they are
-/// those of the library.
+/// Functions of the C++20 library that the library of Emscripten 3.1 (libc++ 13) lacks. With other compilers
+/// they are those of the library.
 namespace faba::portable {
 
 #if defined(__cpp_lib_bit_cast)
@@ -23,11 +23,8 @@ template <class To, class From>
 }
 #endif
 
-/// std::from_chars() for a double in decimal notation.
-inline std::from_chars_result from_chars(const char* first, const char* last, double& value) {
-#if defined(__cpp_lib_to_chars)
-  return std::from_chars(first, last, value);
-#else
+/// std::from_chars() for a double in decimal notation, by the C library. Does not read infinities and NaN.
+inline std::from_chars_result from_chars_by_strtod(const char* first, const char* last, double& value) {
   // The longest number at the start: strtod() also accepts spaces, "+" and hexadecimal digits.
   const auto digits = [last](const char* p) {
     while (p != last && std::isdigit(static_cast<unsigned char>(*p))) ++p;
@@ -54,6 +51,14 @@ inline std::from_chars_result from_chars(const char* first, const char* last, do
   if (std::isinf(read) || (read == 0 && !zero)) return {end, std::errc::result_out_of_range};
   value = read;
   return {end, std::errc{}};
+}
+
+/// std::from_chars() for a double.
+inline std::from_chars_result from_chars(const char* first, const char* last, double& value) {
+#if defined(__cpp_lib_to_chars)
+  return std::from_chars(first, last, value);
+#else
+  return from_chars_by_strtod(first, last, value);
 #endif
 }
 

@@ -4,10 +4,10 @@
 
 #include "core/portable.h"
 
-/// Elementary functions that give the same bits on x86-64 and arm64 and in WebAssembly, at every optimisation level: only
-/// IEEE additions, multiplications, divisions and square roots, no fused multiply-add (the build sets
-/// -ffp-contract=off), no libm, whose variants for different processors differ in the last bit. Branch-free,
-/// so that loops vectorise.
+/// Elementary functions that give the same bits on x86-64 and arm64 and in WebAssembly, at every optimisation
+/// level: only IEEE additions, multiplications, divisions and square roots, no fused multiply-add (the build
+/// sets -ffp-contract=off), no libm, whose variants for different processors differ in the last bit.
+/// Branch-free, so that loops vectorise.
 namespace faba::portable {
 
 inline constexpr float kPiF = 3.14159265358979f;

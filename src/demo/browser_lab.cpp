@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <limits>
 
 #include "app/run/random_seed.h"
@@ -11,53 +10,28 @@
 #include "core/error.h"
 #include "core/json_input.h"
 #include "server/json_text.h"
-#include "server/scenarios/scene_cards.h"
+#include "server/scenarios/gallery_index.h"
 #include "server/scenarios/scenario_check.h"
+#include "server/scenarios/scene_cards.h"
 
 namespace faba {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kGallery = "scenes";
-constexpr const char* kPage = "scenes/page";  // files in scenarios of the page are relative to the gallery
-constexpr double kLate = 0.25;                // s, maximum lag that is made up for
-constexpr double kStatePeriod = 0.5;          // s, interval of state messages
+constexpr double kLate = 0.25;        // s, maximum lag that is made up for
+constexpr double kStatePeriod = 0.5;  // s, interval of state messages
 
 double seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-Document page_document(Json scenario) {
-  Document d;
-  d.name = kPage;
-  d.root = std::move(scenario);
-  return d;
-}
-
-// The place of an error without the name of the document of the page.
-std::string in_page(const std::string& where) {
-  const std::string name = std::string(kPage) + ": ";
-  return where.starts_with(name) ? where.substr(name.size()) : where;
-}
-
-Json refusal(const Error& e) { return {{"ok", false}, {"where", in_page(e.where())}, {"what", e.reason()}}; }
-
-std::vector<fs::path> scenes() {
+std::vector<fs::path> scenes(const fs::path& gallery) {
   std::vector<fs::path> files;
-  for (const auto& e : fs::directory_iterator(kGallery))
-    if (e.path().extension() == ".toml" && e.path().filename() != "gallery.toml") files.push_back(e.path());
+  for (const auto& e : fs::directory_iterator(gallery))
+    if (e.path().extension() == ".toml" && e.path().filename() != kGalleryIndex) files.push_back(e.path());
   std::sort(files.begin(), files.end());
   return files;
-}
-
-Json check(std::string_view body, const Parts& parts) {
-  const Json asked = parse_json(body);
-  if (!asked.is_object()) throw Error(Errc::usage, "invalid request", "not a JSON object");
-  const Document d = asked.contains("toml")
-                         ? parse_toml(asked["toml"].get<std::string>(), asked.value("name", "scenario.toml"))
-                         : page_document(asked.value("scenario", Json::object()));
-  return scenario_check(d, parts, ".");
 }
 
 bool asks_to_finish(std::string_view text) {
@@ -67,10 +41,38 @@ bool asks_to_finish(std::string_view text) {
 
 }  // namespace
 
-BrowserLab::BrowserLab(Page page) : page_(std::move(page)), parts_(engine_parts()), pool_(1) {
+BrowserLab::BrowserLab(Page page, fs::path gallery)
+    : page_(std::move(page)), gallery_(std::move(gallery)), parts_(engine_parts()), pool_(1) {
   page_.text(json_text({{"say", "hello"}, {"version", FABA_VERSION}, {"protocol", 1}, {"page", 1}}));
   page_.text(json_text({{"say", "pages"}, {"pages", 1}, {"steering", 1}}));
   send_state();
+}
+
+// Files that a scenario of the page names are relative to the gallery.
+Document BrowserLab::document(Json scenario) const {
+  Document d;
+  d.name = (gallery_ / "page").string();
+  d.root = std::move(scenario);
+  return d;
+}
+
+// The place of an error without the name of that document.
+std::string BrowserLab::in_page(const std::string& where) const {
+  const std::string name = (gallery_ / "page").string() + ": ";
+  return where.starts_with(name) ? where.substr(name.size()) : where;
+}
+
+Json BrowserLab::refusal(const Error& e) const {
+  return {{"ok", false}, {"where", in_page(e.where())}, {"what", e.reason()}};
+}
+
+Json BrowserLab::check(std::string_view body) const {
+  const Json asked = parse_json(body);
+  if (!asked.is_object()) throw Error(Errc::usage, "invalid request", "not a JSON object");
+  const Document d = asked.contains("toml")
+                         ? parse_toml(asked["toml"].get<std::string>(), asked.value("name", "scenario.toml"))
+                         : document(asked.value("scenario", Json::object()));
+  return scenario_check(d, parts_, ".");
 }
 
 ShownRun& BrowserLab::shown() {
@@ -143,7 +145,8 @@ Json BrowserLab::carry_out(const PageMessage& m) {
       if (shown_ && pace_ == Pace::paused && shown_->live.frame() > 0) send_frame();
       break;
     case Do::save:
-      throw Error(Errc::usage, "save", "the demonstration does not record; install the program to record runs");
+      throw Error(Errc::usage, "save",
+                  "the demonstration does not record; install the program to record runs");
     case Do::steer:
     case Do::ping:
       break;
@@ -152,7 +155,7 @@ Json BrowserLab::carry_out(const PageMessage& m) {
 }
 
 void BrowserLab::start(const Json& scenario, std::uint64_t seed) {
-  auto next = std::make_unique<ShownRun>(page_document(scenario), seed, parts_, pool_);
+  auto next = std::make_unique<ShownRun>(document(scenario), seed, parts_, pool_);
   shown_ = std::move(next);
   ++run_;
   pause_at_ = end();
@@ -248,11 +251,11 @@ Json BrowserLab::answer(std::string_view path, std::string_view body) {
   constexpr std::string_view kScene = "/api/scenes/";
   try {
     if (path == "/api/schema") return scenario_json_schema(parts_);
-    if (path == "/api/scenes") return scene_cards(kGallery, scenes(), parts_);
-    if (path == "/api/check") return check(body, parts_);
+    if (path == "/api/scenes") return scene_cards(gallery_, scenes(gallery_), parts_);
+    if (path == "/api/check") return check(body);
     if (path.starts_with(kScene)) {
       const fs::path name = fs::path(path.substr(kScene.size())).filename();
-      return scene_answer(fs::path(kGallery) / (name.string() + ".toml"), parts_);
+      return scene_answer(gallery_ / (name.string() + ".toml"), parts_);
     }
     throw Error(Errc::usage, std::string(path), "not available in the demonstration; install the program");
   } catch (const Error& e) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -9,11 +10,12 @@
 
 namespace faba {
 
-/// The live lab without threads, sockets and files: it answers messages and simulates frames when the page calls
-/// it. The messages are those of web/protocol.md, and these:
+/// The live lab without threads, sockets and files: it answers messages and simulates frames when the page
+/// calls it. The messages are those of web/protocol.md, and these:
 ///
 /// from the page `finish`    simulates up to the end of the scenario as fast as possible, then pauses
-/// to the page   `hash`      `frame`, `t` (s) and `hash`, the state hash of a run up to this frame; `end`: at the end
+/// to the page   `hash`      `frame`, `t` (s) and `hash`, the state hash of a run up to this frame; `end`: at
+/// the end
 ///                           of the scenario; `changed`: parts were exchanged. Sent when the run pauses
 class BrowserLab {
  public:
@@ -21,15 +23,16 @@ class BrowserLab {
     std::function<void(const std::string&)> text;   ///< receives JSON
     std::function<void(const std::string&)> frame;  ///< receives a binary frame
   };
-  explicit BrowserLab(Page page);
+  /// `gallery`: the folder of the scenes.
+  BrowserLab(Page page, std::filesystem::path gallery);
 
   /// Answers a message of the page.
   void receive(std::string_view text);
   /// Answers a request of the page without a message: GET /api/schema, /api/scenes, /api/scenes/NAME, POST
   /// /api/check. Errors have `where` and `what`.
   Json answer(std::string_view path, std::string_view body);
-  /// Simulates the frames that are due at the time `now`, s, but stops after `budget` s, and sends the newest one.
-  /// Returns the time until the next frame is due, s; infinity if the run is paused.
+  /// Simulates the frames that are due at the time `now`, s, but stops after `budget` s, and sends the newest
+  /// one. Returns the time until the next frame is due, s; infinity if the run is paused.
   double advance(double now, double budget);
 
  private:
@@ -48,7 +51,13 @@ class BrowserLab {
   double period() const;
   std::uint64_t end() const;
 
+  Document document(Json scenario) const;
+  std::string in_page(const std::string& where) const;
+  Json refusal(const Error& e) const;
+  Json check(std::string_view body) const;
+
   Page page_;
+  std::filesystem::path gallery_;
   Parts parts_;
   Pool pool_;
   std::unique_ptr<ShownRun> shown_;
@@ -56,7 +65,7 @@ class BrowserLab {
   Pace pace_ = Pace::paused;
   std::uint64_t pause_at_ = 0;  ///< frame
   double speed_ = 1, real_speed_ = 0;
-  double due_ = 0;       ///< s, time of the next frame
+  double due_ = 0;        ///< s, time of the next frame
   bool on_time_ = false;  ///< due_ is valid
   double reported_ = 0;   ///< s, time of the newest message about the speed
   std::uint64_t reported_frame_ = 0;

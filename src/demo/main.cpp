@@ -8,15 +8,16 @@
 
 // Messages to the page are passed to functions of the module that the worker sets.
 EM_JS(void, send_text_to_page, (const char* text, size_t size), { Module.onText(UTF8ToString(text, size)); })
-EM_JS(void, send_frame_to_page, (const char* bytes, size_t size), {
-  Module.onFrame(HEAPU8.slice(bytes, bytes + size).buffer);
-})
+EM_JS(void, send_frame_to_page, (const char* bytes, size_t size),
+      { Module.onFrame(HEAPU8.slice(bytes, bytes + size).buffer); })
 
 namespace {
 
 faba::BrowserLab& lab() {
-  static faba::BrowserLab one({[](const std::string& text) { send_text_to_page(text.data(), text.size()); },
-                               [](const std::string& bytes) { send_frame_to_page(bytes.data(), bytes.size()); }});
+  static faba::BrowserLab one(
+      {[](const std::string& text) { send_text_to_page(text.data(), text.size()); },
+       [](const std::string& bytes) { send_frame_to_page(bytes.data(), bytes.size()); }},
+      "scenes");
   return one;
 }
 

@@ -29,8 +29,7 @@ unsigned number_of_threads(unsigned threads) {
 Pool::Pool(unsigned threads) {
   threads = number_of_threads(threads);
   try {
-    for (unsigned i = 1; i < threads; ++i)
-      workers_.emplace_back([this, i] { work(i); });
+    for (unsigned i = 1; i < threads; ++i) workers_.emplace_back([this, i] { work(i); });
   } catch (const std::system_error& e) {
     stop();  // the threads already started wait for work; without this their destructors would block
     throw too_many_threads(threads, workers_.size() + 1, e);

@@ -8,8 +8,8 @@
 #include "core/file.h"
 #include "server/api/lab_services.h"
 #include "server/api/responses.h"
-#include "server/scenarios/scene_cards.h"
 #include "server/request_values.h"
+#include "server/scenarios/scene_cards.h"
 #include "study/pages/thumbnail.h"
 
 namespace faba {
@@ -68,10 +68,14 @@ Json save_copy(const LabServices& lab, const Json& asked) {
 }  // namespace
 
 void add_gallery_routes(Routes& routes, const LabServices& lab) {
-  routes.add("GET", "/api/scenes", [&lab](const auto&, const auto&) { return json_answer(scene_cards(lab.workspace.gallery(), lab.workspace.scenes(), lab.parts)); });
+  routes.add("GET", "/api/scenes", [&lab](const auto&, const auto&) {
+    return json_answer(scene_cards(lab.workspace.gallery(), lab.workspace.scenes(), lab.parts));
+  });
   routes.add("POST", "/api/scenes",
              [&lab](const auto& r, const auto&) { return json_answer(save_copy(lab, body_of(r))); });
-  routes.add("GET", "/api/scenes/*", [&lab](const auto&, const auto& names) { return json_answer(scene_answer(lab.workspace.scene(names[0]), lab.parts)); });
+  routes.add("GET", "/api/scenes/*", [&lab](const auto&, const auto& names) {
+    return json_answer(scene_answer(lab.workspace.scene(names[0]), lab.parts));
+  });
   routes.add("GET", "/api/scenes/*/picture.png", [&lab](const auto&, const auto& names) {
     return picture_answer(picture_of(lab, lab.workspace.scene(names[0])));
   });
