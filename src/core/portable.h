@@ -31,12 +31,12 @@ inline std::from_chars_result from_chars_by_strtod(const char* first, const char
     return p;
   };
   const char* const start = first != last && *first == '-' ? first + 1 : first;
-  const char* const whole = digits(start);
-  const char* end = whole;
-  std::ptrdiff_t count = whole - start;
+  const char* const before_point = digits(start);
+  const char* end = before_point;
+  std::ptrdiff_t count = before_point - start;
   if (end != last && *end == '.') {
-    end = digits(whole + 1);
-    count += end - whole - 1;
+    end = digits(before_point + 1);
+    count += end - before_point - 1;
   }
   if (count == 0) return {first, std::errc::invalid_argument};
   const char* const mantissa = end;

@@ -160,7 +160,7 @@ await step('1000 cells: at least real time, drawing included', async () => {
   await page.context().close();
 });
 
-await step('nothing but the files of the folder was requested', async () => {
+await step('only files of the folder were requested', async () => {
   assert.deepEqual(requests.filter((r) => !r.startsWith(pathToFileURL(demo).href)), []);
 });
 

@@ -14,8 +14,6 @@ export const en = {
   'demo.hash.command': 'The program gives the same hash with this command:',
   'demo.hash.file': 'The program gives the same hash for this scenario with this seed: save it below the form.',
   'demo.hash.changed': 'You changed the run: the scenario alone does not give this hash. Restart the run for a hash that the program reproduces.',
-  'demo.copy': 'Copy',
-  'demo.copied': 'Copied',
 } as const;
 
 export const pt: Record<keyof typeof en, string> = {
@@ -34,6 +32,4 @@ export const pt: Record<keyof typeof en, string> = {
   'demo.hash.command': 'O programa fornece o mesmo hash com este comando:',
   'demo.hash.file': 'O programa fornece o mesmo hash para este cenário com esta semente: salve-o abaixo do formulário.',
   'demo.hash.changed': 'Você alterou a execução: o cenário sozinho não fornece este hash. Reinicie a execução para obter um hash que o programa reproduz.',
-  'demo.copy': 'Copiar',
-  'demo.copied': 'Copiado',
 };

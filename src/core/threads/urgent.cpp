@@ -1,4 +1,4 @@
-#include "core/urgent.h"
+#include "core/threads/urgent.h"
 
 #include <sched.h>
 #include <sys/syscall.h>
