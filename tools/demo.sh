@@ -12,6 +12,6 @@ cmake --build build/engine-wasm -j "${JOBS:-$(nproc)}" --target faba_demo
 unset NODE_PATH NODE_OPTIONS
 [ "${1:-}" = engine ] && exit
 tools/page.sh install
-(cd web && FABA_ENGINE=../build/engine-wasm/faba_demo.js npx vite build --config vite.demo.config.ts --outDir ../build/demo --emptyOutDir --logLevel warn)
+(cd web && npx vite build --config vite.demo.config.ts --outDir ../build/demo --emptyOutDir --logLevel warn)
 cp web/public/icon.svg LICENSE build/demo/
 echo "build/demo: $(cat build/demo/* | gzip -9 | wc -c | awk '{ printf "%.0f kB", $1 / 1000 }') compressed; open build/demo/index.html"

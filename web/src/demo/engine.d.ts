@@ -7,8 +7,14 @@ declare module 'faba-engine' {
     ccall(name: 'faba_answer', returns: 'string', types: ['string', 'string'], values: [string, string]): string;
   }
   interface Page {
+    wasmBinary: ArrayBuffer;
     onText(text: string): void;
     onFrame(bytes: ArrayBuffer): void;
   }
   export default function makeEngine(page: Page): Promise<Engine>;
+}
+/** The WebAssembly, compressed with gzip, in base64. */
+declare module 'faba-engine.wasm' {
+  const text: string;
+  export default text;
 }

@@ -1,6 +1,7 @@
 // The worker that simulates: it passes messages between the page and the engine and calls the engine when frames are due.
 
 import makeEngine from 'faba-engine';
+import compressed from 'faba-engine.wasm';
 import type { FromPage, ToPage } from './messages';
 
 const kBudget = 0.03; // s; the page waits this long for an answer while frames are late
@@ -9,7 +10,13 @@ const kIdle = 1000; // ms
 const send = (message: ToPage, moved: Transferable[] = []) => (self as unknown as Worker).postMessage(message, moved);
 const fail = (e: unknown) => send({ failed: e instanceof Error ? e.message : String(e) });
 
-makeEngine({ onText: (text) => send({ text }), onFrame: (frame) => send({ frame }, [frame]) }).then((engine) => {
+async function open() {
+  const bytes = Uint8Array.from(atob(compressed), (c) => c.charCodeAt(0));
+  const wasmBinary = await new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
+  return makeEngine({ wasmBinary, onText: (text) => send({ text }), onFrame: (frame) => send({ frame }, [frame]) });
+}
+
+open().then((engine) => {
   let timer = 0;
   function advance() {
     clearTimeout(timer);
