@@ -65,7 +65,7 @@ async function hashAfter(page, does) {
 /** The hash of the program for the command that the page shows. */
 async function hashOfCommand(page) {
   const line = await page.locator('[data-read="command"] code').textContent();
-  assert.match(line, /^faba run scenes\/[a-z-]+\.toml --seed \d+.* --json$/);
+  assert.match(line, /^faba run scenes\/[a-z0-9-]+\.toml --seed \d+.* --json$/);
   const command = line.replace(/^faba/, `'${program}'`);
   return JSON.parse(execFileSync('sh', ['-c', command], { cwd: workspace, encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore'] })).state_hash;
 }
@@ -110,6 +110,18 @@ await step('a run that is paused, and one with another seed, has the hash of the
   await page.getByRole('button', { name: 'Start', exact: true }).click();
   assert.equal(await hashAfter(page, () => finish(page)), await hashOfCommand(page));
   assert.match(await page.locator('[data-read="command"]').textContent(), /--seed 77/);
+});
+
+await step('every scene has the hash of the program where it is paused', async () => {
+  const scenes = await page.locator('[data-choice="scene"] option').evaluateAll((all) => all.map((one) => one.value));
+  assert.ok(scenes.length > 20);
+  for (const scene of scenes.filter((name) => name !== 'million')) { // slower than real time
+    await page.locator('[data-choice="scene"]').selectOption(scene);
+    await page.waitForFunction((name) => location.hash === `#${name}`, scene);
+    await page.waitForTimeout(400);
+    assert.equal(await hashAfter(page, () => page.locator('.transport button.main').click()), await hashOfCommand(page), scene);
+    await page.locator('.transport button.main').click();
+  }
 });
 
 await step('a drag steers by hand, a click sets the setpoint; the page says that the hash is another one', async () => {
@@ -186,7 +198,7 @@ const axe = readFileSync(join(root, 'web/node_modules/axe-core/axe.min.js'), 'ut
 for (const width of [390, 1440])
   for (const [theme, locale] of [['light', 'en-GB'], ['dark', 'pt-BR']])
     await step(`no serious violation of accessibility: ${width} px, ${theme}, ${locale}`, async () => {
-      const one = await open(`${folder}#steer`, { width, theme, locale });
+      const one = await open(`${folder}#thesis-basic`, { width, theme, locale });
       await one.waitForTimeout(1500);
       await one.locator('.transport button.main').click();
       await one.locator('[data-read="hash"]').waitFor();
