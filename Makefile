@@ -27,8 +27,9 @@ demo:                 ## build the demonstration in a browser, with Emscripten: 
 	@$(SETUP) demo
 	@JOBS=$(JOBS) tools/demo.sh
 
-test-demo: build demo ## test the demonstration in a browser: state hashes of the program, speed, size, accessibility
-	@node tests/e2e/demo_test.mjs --program build/faba --root . --demo build/demo
+test-demo: build      ## build and test the demonstration in Chromium: state hashes of the program, speed, size, accessibility
+	@$(SETUP) demo || command -v em++ > /dev/null || { echo "make test-demo: SKIPPED: Emscripten is not installed"; exit 0; }; \
+	  JOBS=$(JOBS) tools/demo.sh && node tests/e2e/demo_test.mjs --program build/faba --root . --demo build/demo
 
 test-arm64:           ## cross-build the engine for arm64 and run its tests under emulation: golden hashes, physics, contract, field, control
 	@$(SETUP) arm64

@@ -1,7 +1,6 @@
 #include "demo/browser_lab.h"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 
 #include "app/run/random_seed.h"
@@ -21,10 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr double kLate = 0.25;        // s, maximum lag that is made up for
 constexpr double kStatePeriod = 0.5;  // s, interval of state messages
-
-double seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 std::vector<fs::path> scenes(const fs::path& gallery) {
   std::vector<fs::path> files;
@@ -62,8 +57,12 @@ std::string BrowserLab::in_page(const std::string& where) const {
   return where.starts_with(name) ? where.substr(name.size()) : where;
 }
 
-Json BrowserLab::refusal(const Error& e) const {
-  return {{"ok", false}, {"where", in_page(e.where())}, {"what", e.reason()}};
+// Errors other than Error: out of memory, JSON of another type.
+Json BrowserLab::refusal(const std::exception& e) const {
+  const auto* error = dynamic_cast<const Error*>(&e);
+  return {{"ok", false},
+          {"where", error ? in_page(error->where()) : ""},
+          {"what", error ? error->reason() : e.what()}};
 }
 
 Json BrowserLab::check(std::string_view body) const {
@@ -96,10 +95,8 @@ void BrowserLab::receive(std::string_view text) {
       answer = carry_out(parse_page_message(text));
     }
     answer["ok"] = true;
-  } catch (const Error& e) {
+  } catch (const std::exception& e) {
     answer = refusal(e);
-  } catch (const std::exception& e) {  // out of memory
-    answer = {{"ok", false}, {"where", ""}, {"what", e.what()}};
   }
   answer["id"] = id;
   page_.text(json_text(answer));
@@ -126,7 +123,7 @@ Json BrowserLab::carry_out(const PageMessage& m) {
       pause();
       break;
     case Do::go:
-      if (shown().live.frame() >= pause_at_) pause_at_ = std::numeric_limits<std::uint64_t>::max();
+      pause_at_ = shown().live.frame() < end() ? end() : std::numeric_limits<std::uint64_t>::max();
       pace(Pace::real_time);
       break;
     case Do::step:
@@ -168,7 +165,7 @@ void BrowserLab::start(const Json& scenario, std::uint64_t seed) {
 void BrowserLab::pace(Pace p) {
   pace_ = p;
   on_time_ = false;
-  reported_ = seconds();
+  reported_ = page_.clock();
   reported_frame_ = shown_->live.frame();
   send_state();
 }
@@ -193,9 +190,10 @@ bool BrowserLab::step() {
   return false;
 }
 
-double BrowserLab::advance(double now, double budget) {
+double BrowserLab::advance(double budget) {
   if (pace_ == Pace::paused) return std::numeric_limits<double>::infinity();
-  const double began = now;
+  const double began = page_.clock();
+  double now = began;
   if (!on_time_ || now - due_ > kLate) due_ = now;
   on_time_ = true;
   bool fresh = false;
@@ -207,7 +205,7 @@ double BrowserLab::advance(double now, double budget) {
     if (!step()) return std::numeric_limits<double>::infinity();
     fresh = true;
     due_ += period() / speed_;
-    now = seconds();
+    now = page_.clock();
     if (now - began > budget) break;
   }
   if (fresh && now - sent_ > 0.9 / frame_rate_) {
@@ -258,7 +256,7 @@ Json BrowserLab::answer(std::string_view path, std::string_view body) {
       return scene_answer(gallery_ / (name.string() + ".toml"), parts_);
     }
     throw Error(Errc::usage, std::string(path), "not available in the demonstration; install the program");
-  } catch (const Error& e) {
+  } catch (const std::exception& e) {
     return refusal(e);
   }
 }

@@ -11,17 +11,13 @@
 namespace faba {
 
 /// The live lab without threads, sockets and files: it answers messages and simulates frames when the page
-/// calls it. The messages are those of web/protocol.md, and these:
-///
-/// from the page `finish`    simulates up to the end of the scenario as fast as possible, then pauses
-/// to the page   `hash`      `frame`, `t` (s) and `hash`, the state hash of a run up to this frame; `end`: at
-/// the end
-///                           of the scenario; `changed`: parts were exchanged. Sent when the run pauses
+/// calls it. web/protocol.md has the messages, also those that only the demonstration has.
 class BrowserLab {
  public:
   struct Page {
     std::function<void(const std::string&)> text;   ///< receives JSON
     std::function<void(const std::string&)> frame;  ///< receives a binary frame
+    std::function<double()> clock;                  ///< s, monotonic
   };
   /// `gallery`: the folder of the scenes.
   BrowserLab(Page page, std::filesystem::path gallery);
@@ -31,9 +27,9 @@ class BrowserLab {
   /// Answers a request of the page without a message: GET /api/schema, /api/scenes, /api/scenes/NAME, POST
   /// /api/check. Errors have `where` and `what`.
   Json answer(std::string_view path, std::string_view body);
-  /// Simulates the frames that are due at the time `now`, s, but stops after `budget` s, and sends the newest
-  /// one. Returns the time until the next frame is due, s; infinity if the run is paused.
-  double advance(double now, double budget);
+  /// Simulates the frames that are due, but stops after `budget` s, and sends the newest one. Returns the
+  /// time until the next frame is due, s; infinity if the run is paused.
+  double advance(double budget);
 
  private:
   enum class Pace { paused, real_time, fastest };
@@ -53,7 +49,7 @@ class BrowserLab {
 
   Document document(Json scenario) const;
   std::string in_page(const std::string& where) const;
-  Json refusal(const Error& e) const;
+  Json refusal(const std::exception& e) const;
   Json check(std::string_view body) const;
 
   Page page_;

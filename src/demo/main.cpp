@@ -16,7 +16,8 @@ namespace {
 faba::BrowserLab& lab() {
   static faba::BrowserLab one(
       {[](const std::string& text) { send_text_to_page(text.data(), text.size()); },
-       [](const std::string& bytes) { send_frame_to_page(bytes.data(), bytes.size()); }},
+       [](const std::string& bytes) { send_frame_to_page(bytes.data(), bytes.size()); },
+       [] { return emscripten_get_now() / 1000; }},
       "scenes");
   return one;
 }
@@ -30,9 +31,7 @@ EMSCRIPTEN_KEEPALIVE void faba_open() { lab(); }
 EMSCRIPTEN_KEEPALIVE void faba_receive(const char* text) { lab().receive(text); }
 
 /// Times in s.
-EMSCRIPTEN_KEEPALIVE double faba_advance(double budget) {
-  return lab().advance(emscripten_get_now() / 1000, budget);
-}
+EMSCRIPTEN_KEEPALIVE double faba_advance(double budget) { return lab().advance(budget); }
 
 /// The answer is valid until the next call.
 EMSCRIPTEN_KEEPALIVE const char* faba_answer(const char* path, const char* body) {

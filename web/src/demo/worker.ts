@@ -4,7 +4,7 @@ import makeEngine from 'faba-engine';
 import compressed from 'faba-engine.wasm';
 import type { FromPage, ToPage } from './messages';
 
-const kBudget = 0.03; // s; the page waits this long for an answer while frames are late
+const kBudget = 0.012; // s; the page waits this long for an answer while frames are late
 const kIdle = 1000; // ms
 
 const send = (message: ToPage, moved: Transferable[] = []) => (self as unknown as Worker).postMessage(message, moved);
