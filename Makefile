@@ -3,7 +3,7 @@ SHELL := /bin/bash
 JOBS ?= $(shell nproc)
 SETUP = tools/setup.sh
 
-.PHONY: run lab page python train-example test test-engines package test-package setup build bench accuracy reproduce format lint asan tsan dev fuzz docs clean help
+.PHONY: run lab page python train-example test test-engines test-arm64 test-portability arm64 demo test-demo package test-package setup build bench accuracy reproduce format lint asan tsan dev fuzz docs clean help
 
 run: build            ## build the program and run scenes/steer.toml: a swarm is steered along a route
 	@build/faba run scenes/steer.toml --seed 1 --force --out runs/steer
@@ -22,6 +22,35 @@ test-engines: build   ## install Slurm, Dask and GNU parallel, and test studies 
 	@# Exit code 77: nothing failed, but checks could not run; they are printed.
 	@/usr/bin/python3 tests/e2e/study_engines_test.py --program build/faba --kills || \
 	  { code=$$?; [ $$code -eq 77 ] || exit $$code; echo "make test-engines: some checks were SKIPPED; their reasons are above"; }
+
+demo:                 ## build the demonstration in a browser, with Emscripten: build/demo/index.html
+	@$(SETUP) demo
+	@JOBS=$(JOBS) tools/demo.sh
+
+test-demo: build      ## build and test the demonstration in Chromium: state hashes of the program, speed, size, accessibility
+	@$(SETUP) demo || command -v em++ > /dev/null || { echo "make test-demo: SKIPPED: Emscripten is not installed"; exit 0; }; \
+	  JOBS=$(JOBS) tools/demo.sh && node tests/e2e/demo_test.mjs --program build/faba --root . --demo build/demo
+
+test-arm64:           ## cross-build the engine for arm64 and run its tests under emulation: golden hashes, physics, contract, field, control
+	@$(SETUP) arm64
+	@cmake --preset engine-arm64 --log-level=WARNING > /dev/null
+	@cmake --build build/engine-arm64 -j $(JOBS)
+	@ctest --test-dir build/engine-arm64 --no-tests=error --output-on-failure -j $(JOBS)
+
+test-portability:     ## run the same tests on this machine with unsigned char, as on arm64, and compiled by clang
+	@$(SETUP) portability
+	@for leg in engine-unsigned-char engine-clang; do \
+	  cmake --preset $$leg --log-level=WARNING > /dev/null && cmake --build build/$$leg -j $(JOBS) && \
+	  ctest --test-dir build/$$leg --no-tests=error --output-on-failure -j $(JOBS) || exit 1; done
+
+# Exit code 77 of arm64_sysroot.sh: no package can be downloaded.
+arm64: build          ## cross-build the program and the Python package for arm64 in build-arm64/, run them under emulation and compare with build/faba
+	@$(SETUP) arm64 python
+	@tools/arm64_sysroot.sh build-arm64/sysroot || { code=$$?; [ $$code -eq 77 ] || exit $$code; \
+	  echo "make arm64: SKIPPED; the reason is above"; exit 0; }; \
+	cmake --preset arm64 --log-level=WARNING > /dev/null && \
+	cmake --build build-arm64 -j $(JOBS) --target faba python tests_core tests_vision tests_rig && \
+	ctest --test-dir build-arm64 --no-tests=error --output-on-failure -j $(JOBS) -R '^(core|vision|rig)\.|^e2e\.arm64$$'
 
 python:               ## build the Python package: build/python/faba; use it with PYTHONPATH=build/python /usr/bin/python3
 	@$(SETUP) python
@@ -107,8 +136,8 @@ docs: build           ## regenerate docs/reference from the program, and the pic
 	@$(SETUP) docs
 	@/usr/bin/python3 tools/make_docs.py --picture
 
-clean:                ## delete build/; runs/ is kept
-	@rm -rf build
+clean:                ## delete build/ and build-arm64/; runs/ is kept
+	@rm -rf build build-arm64
 
 help:                 ## list the targets
-	@grep -E '^[a-z -]+:.*##' Makefile | sed -E 's/:[^#]*## /\t/' | expand -t 14
+	@grep -E '^[a-z0-9 -]+:.*##' Makefile | sed -E 's/:[^#]*## /\t/' | expand -t 14

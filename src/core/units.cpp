@@ -4,7 +4,10 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <stdexcept>
+
+#include "core/portable.h"
 
 namespace faba {
 namespace {
@@ -79,8 +82,15 @@ Factor named_unit(std::string_view name) {
   throw std::invalid_argument(fmt::format("unknown unit \"{}\"", name));
 }
 
+// A product, because std::pow differs in the last bit between processors.
+double whole_power(double x, int n) {
+  double product = 1;
+  for (int i = 0; i < std::abs(n); ++i) product *= x;
+  return n < 0 ? 1 / product : product;
+}
+
 Factor power(const Factor& f, int n) {
-  Factor r{std::pow(f.factor, n), f.ten * n, {}};
+  Factor r{whole_power(f.factor, n), f.ten * n, {}};
   for (std::size_t i = 0; i < r.dim.exponent.size(); ++i)
     r.dim.exponent[i] = std::int8_t(f.dim.exponent[i] * n);
   return r;
@@ -172,7 +182,7 @@ Quantity parse_quantity(std::string_view text) {
   text = trimmed(text);
   if (text.starts_with('+')) text.remove_prefix(1);
   double v = 0;
-  const auto [p, e] = std::from_chars(text.data(), text.data() + text.size(), v);
+  const auto [p, e] = portable::from_chars(text.data(), text.data() + text.size(), v);
   if (e == std::errc::result_out_of_range)
     throw std::invalid_argument(fmt::format("the number in \"{}\" is too large or too small", text));
   if (e != std::errc{}) throw std::invalid_argument(fmt::format("\"{}\" does not start with a number", text));

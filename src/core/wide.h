@@ -13,9 +13,9 @@ struct Wide {
 /// Defines a function `name` from a template `name_in<bytes>`, compiled for the vector lengths of AVX-512,
 /// AVX2 and SSE2; the longest that the processor supports is used. Compilers keep longer vectors in memory.
 /// Element-wise results are bit-identical for all lengths. The template must be [[gnu::always_inline]].
-/// Sanitizer builds and other compilers use the shortest.
+/// Sanitizer builds, other compilers and other processors use the shortest, which is that of NEON.
 // NOLINTBEGIN(bugprone-macro-parentheses): the arguments are lists in parentheses already
-#if defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__) && defined(__OPTIMIZE__) && !defined(FABA_ONE_ISA)
 #define FABA_WIDE(name, parameters, arguments)                                             \
   [[gnu::target("arch=x86-64-v4")]] void name##_64 parameters { name##_in<64> arguments; } \

@@ -1,4 +1,4 @@
-// The same scenario and seed give bitwise equal rendered frames on any x86-64 machine, for any number of
+// The same scenario and seed give bitwise equal rendered frames on x86-64 and arm64, for any number of
 // threads and any optimisation level. The hashes are literal; a change that alters them on purpose must
 // update them and be reported in CHANGELOG.md. tests/CMakeLists.txt builds this file also with -mavx2 -mfma,
 // and `make dev` with -O0.

@@ -1,4 +1,4 @@
-// The same scenario, seed and version give bitwise equal states on any x86-64 machine, for any number of
+// The same scenario, seed and version give bitwise equal states on x86-64 and arm64, for any number of
 // threads and any optimisation level. The hashes are literal; a change of a model that alters them on purpose
 // must update them and be reported in CHANGELOG.md. tests/CMakeLists.txt builds this file also with
 // -mavx2 -mfma, and `make dev` with -O0.

@@ -33,9 +33,15 @@ Json free_memory_gb() {
 }
 
 const char* vector_unit() {
+#if defined(__x86_64__)
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl")) return "AVX-512";
   if (__builtin_cpu_supports("avx2")) return "AVX2";
   return "SSE2";
+#elif defined(__aarch64__)
+  return "NEON";
+#else
+  return "that of the compiler's default target";
+#endif
 }
 
 Json machine() {

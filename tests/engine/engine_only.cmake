@@ -1,0 +1,19 @@
+# With FABA_ENGINE_ONLY: the tests of the folders of the engine (CMakeLists.txt), linked with the engine.
+set(tested core field sim control vision/image vision/foreground vision/render rig/setup rig/simulated app/loop app/scenario app/run
+    contract physics golden)
+# These need HDF5, the tracker or a run directory.
+set(of_program core/h5/ core/storage_test control/image_estimators_test)
+list(JOIN of_program "|" of_program)
+
+foreach(folder ${tested})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/*_test.cpp)
+  list(FILTER sources EXCLUDE REGEX "${of_program}")
+  string(REGEX REPLACE "/.*" "" group ${folder})
+  list(APPEND groups ${group})
+  list(APPEND sources_of_${group} ${sources})
+endforeach()
+list(REMOVE_DUPLICATES groups)
+foreach(group ${groups})
+  faba_tests(${group} "${sources_of_${group}}" faba_engine)
+  target_sources(tests_${group} PRIVATE engine/program_parts.cpp)
+endforeach()
