@@ -1,7 +1,7 @@
 # With FABA_ENGINE_ONLY: the tests of the folders of the engine (CMakeLists.txt), linked with the engine.
-set(tested core field sim control vision/image vision/foreground vision/render rig/setup rig/simulated app/loop app/scenario app/run
+set(tested core field sim control vision/image vision/foreground rig/setup rig/simulated app/loop app/scenario app/run
     contract physics golden)
-# These need HDF5, the tracker or a run directory.
+# These need HDF5, videos or a run directory.
 set(of_program core/h5/ core/storage_test control/image_estimators_test)
 list(JOIN of_program "|" of_program)
 
