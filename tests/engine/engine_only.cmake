@@ -2,7 +2,7 @@
 set(tested core field sim control vision/image vision/foreground rig/setup rig/simulated app/loop app/scenario app/run
     contract physics golden)
 # These need HDF5, videos or a run directory.
-set(of_program core/h5/ core/storage_test control/image_estimators_test)
+set(of_program core/h5/ core/storage_test control/image_estimators_test app/run/live_run_test)
 list(JOIN of_program "|" of_program)
 
 foreach(folder ${tested})
