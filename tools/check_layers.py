@@ -30,6 +30,7 @@ MAY = {
     "cli": "core app study server",
     "python": "core field vision sim control rig app study",
     "guard": "core rig",
+    "demo": "core app server",
 }
 # Subfolders and the sibling subfolders that each may include; "." is the folder itself. In folders that are not listed,
 # all subfolders may include each other.
@@ -127,7 +128,7 @@ EVERYWHERE = ("fmt/", "nlohmann/")
 ENGINE_LIBRARIES = (*EVERYWHERE, "toml++", "Eigen/", "nanoflann", "boost/math")
 # Headers of the standard library and of the operating system; all others belong to third-party libraries.
 SYSTEM = re.compile(
-    r"[a-z_0-9]+|sys/\w+\.h|(dlfcn|errno|fcntl|immintrin|malloc|poll|pty|sched|signal|spawn|std\w+|termios|time|unistd)\.h"
+    r"[a-z_0-9]+|sys/\w+\.h|(dlfcn|emscripten|errno|fcntl|immintrin|malloc|poll|pty|sched|signal|spawn|std\w+|termios|time|unistd)\.h"
 )
 # Folders with a unity build (CMakeLists.txt: FABA_UNITY), and their files that are compiled separately.
 UNITY = {"field", "vision", "sim", "control", "rig", "app", "study", "server", "cli", "python"}

@@ -101,7 +101,7 @@ OTHER_MEANINGS = (
     ("path", "an SVG element", "web/src/results/plot_drawing.ts web/src/parts/ReportFigure.svelte"),
     ("route", "a label or a layer of a picture", "src/study/pages/run_figures.cpp web/src/workbench/Stage.svelte"),
     ("simulated", "the word of a trait", "src/core/traits.h"),
-    ("thesis", "a section of the gallery", "src/server/gallery_index.cpp web/src/gallery.ts"),
+    ("thesis", "a section of the gallery", "src/server/scenarios/gallery_index.cpp web/src/gallery.ts"),
     ("visible", "a label, a parameter or a style",
      "src/sim/starts/edge.cpp src/study/pages/run_figures.cpp web/src/view/Microscope.svelte web/src/own/own.ts"),
 )

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the packages for building Faba on Debian 12, and those for the purposes given as arguments (test, bench, lint,
-# docs, fuzz, engines, python, torch, arm64, portability). Prints the packages that it installs; does nothing if all of them are installed.
+# docs, fuzz, engines, python, torch, arm64, portability, demo, package). Prints the packages that it installs; does nothing if all of them are installed.
 # With --print as the first argument it only prints the names of the packages, one per line.
 set -euo pipefail
 
@@ -15,7 +15,8 @@ packages=(g++ cmake ninja-build ccache pkg-config libfmt-dev nlohmann-json3-dev 
   liblemon-dev libavformat-dev libavcodec-dev libavutil-dev libswscale-dev libtiff-dev libboost-dev)
 for what in "$@"; do
   case $what in
-    test)
+    demo) packages+=(emscripten) ;;&  # and those of the next case
+    test | demo)
       packages+=(doctest-dev python3 python3-numpy python3-h5py python3-xarray python3-h5netcdf python3-tifffile chromium)
       # Node may be installed without a Debian package.
       command -v node > /dev/null || packages+=(nodejs)
@@ -30,10 +31,11 @@ for what in "$@"; do
     docs) packages+=(python3 ffmpeg) ;;
     fuzz) packages+=(clang libclang-rt-14-dev) ;;
     engines) packages+=(python3 slurmctld slurmd slurm-client munge parallel python3-distributed) ;;
+    package) packages+=(dpkg-dev debhelper dh-python python3-all lintian pandoc bash-completion man-db debootstrap desktop-file-utils appstream) ;;
     torch) packages+=(python3-torch) ;;
     arm64) packages+=(doctest-dev python3 g++-aarch64-linux-gnu qemu-user) ;;
     portability) packages+=(doctest-dev python3 clang-16) ;;
-    *) echo "setup.sh: \"$what\" is not one of test, bench, lint, docs, fuzz, engines, python, torch, arm64, portability" >&2; exit 2 ;;
+    *) echo "setup.sh: \"$what\" is not one of test, bench, lint, docs, fuzz, engines, python, torch, arm64, portability, demo, package" >&2; exit 2 ;;
   esac
 done
 

@@ -17,7 +17,7 @@ double exp(double x) {
   double terms[18];
   for (int k = 1; k <= 18; ++k) terms[k - 1] = term = term * r / k;
   for (int k = 17; k >= 0; --k) sum += terms[k];
-  return (1 + sum) * std::bit_cast<double>(std::uint64_t(std::int64_t(n) + 1023) << 52);
+  return (1 + sum) * bit_cast<double>(std::uint64_t(std::int64_t(n) + 1023) << 52);
 }
 
 double log(double x) {

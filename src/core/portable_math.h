@@ -1,12 +1,13 @@
 #pragma once
-#include <bit>
 #include <cmath>
 #include <cstdint>
 
-/// Elementary functions that give the same bits on x86-64 and arm64 and at every optimisation level: only
-/// IEEE additions, multiplications, divisions and square roots, no fused multiply-add (the build sets
-/// -ffp-contract=off), no libm, whose variants for different processors differ in the last bit. Branch-free,
-/// so that loops vectorise.
+#include "core/portable.h"
+
+/// Elementary functions that give the same bits on x86-64 and arm64 and in WebAssembly, at every optimisation
+/// level: only IEEE additions, multiplications, divisions and square roots, no fused multiply-add (the build
+/// sets -ffp-contract=off), no libm, whose variants for different processors differ in the last bit.
+/// Branch-free, so that loops vectorise.
 namespace faba::portable {
 
 inline constexpr float kPiF = 3.14159265358979f;
@@ -36,9 +37,9 @@ struct SinCos {
 
 /// Natural logarithm of a normal positive float; relative error below 1e-7 (absolute near 1).
 [[gnu::always_inline]] inline float log(float v) {
-  const auto bits = std::bit_cast<std::int32_t>(v);
+  const auto bits = bit_cast<std::int32_t>(v);
   const std::int32_t e = (bits - 0x3f3504f3) >> 23;  // v = m 2^e, m in [sqrt(1/2), sqrt(2))
-  const float m = std::bit_cast<float>(bits - e * (1 << 23)) - 1.0f;
+  const float m = bit_cast<float>(bits - e * (1 << 23)) - 1.0f;
   const float z = m * m;
   const float p =
       ((((((((7.0376836292e-2f * m - 1.1514610310e-1f) * m + 1.1676998740e-1f) * m - 1.2420140846e-1f) * m +
@@ -67,7 +68,7 @@ struct SinCos {
           r +
       5.0000001201e-1f;
   const float y = 1.0f + (r + p * r * r);
-  return y * std::bit_cast<float>((std::int32_t(n) + 127) * (1 << 23));
+  return y * bit_cast<float>((std::int32_t(n) + 127) * (1 << 23));
 }
 
 /// Double versions for set-up and the once-per-step scalars; about 1 ulp.

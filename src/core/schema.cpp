@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
 #include "core/counted.h"
+#include "core/portable.h"
 #include "core/units.h"
 
 namespace faba {
@@ -93,7 +93,7 @@ std::string unit_text(std::string_view quantity) {
   const std::size_t sign = quantity.find_first_not_of(" \t+");
   quantity.remove_prefix(std::min(sign, quantity.size()));
   double number = 0;
-  const auto [end, error] = std::from_chars(quantity.data(), quantity.data() + quantity.size(), number);
+  const auto [end, error] = portable::from_chars(quantity.data(), quantity.data() + quantity.size(), number);
   const std::string_view rest = quantity.substr(std::size_t(end - quantity.data()));
   return std::string(rest.substr(std::min(rest.find_first_not_of(" \t"), rest.size())));
 }

@@ -1,7 +1,6 @@
 #include "core/table.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -10,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/portable.h"
 
 namespace faba {
 namespace {
@@ -34,7 +34,7 @@ double number_in(std::string_view field, const std::string& file, std::size_t li
                  const std::string& column) {
   if (field.empty()) return std::numeric_limits<double>::quiet_NaN();
   double value = 0;
-  const auto [end, code] = std::from_chars(field.data(), field.data() + field.size(), value);
+  const auto [end, code] = portable::from_chars(field.data(), field.data() + field.size(), value);
   if (code != std::errc{} || end != field.data() + field.size() || std::isinf(value)) {
     throw Error(Errc::input, fmt::format("{}:{}", file, line),
                 fmt::format("\"{}\" in column {} is not a number", field.substr(0, 40), column));

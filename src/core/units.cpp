@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "core/portable.h"
+
 namespace faba {
 namespace {
 
@@ -180,7 +182,7 @@ Quantity parse_quantity(std::string_view text) {
   text = trimmed(text);
   if (text.starts_with('+')) text.remove_prefix(1);
   double v = 0;
-  const auto [p, e] = std::from_chars(text.data(), text.data() + text.size(), v);
+  const auto [p, e] = portable::from_chars(text.data(), text.data() + text.size(), v);
   if (e == std::errc::result_out_of_range)
     throw std::invalid_argument(fmt::format("the number in \"{}\" is too large or too small", text));
   if (e != std::errc{}) throw std::invalid_argument(fmt::format("\"{}\" does not start with a number", text));

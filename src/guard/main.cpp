@@ -5,7 +5,7 @@
 
 #include <cstdio>
 
-#include "core/urgent.h"
+#include "core/threads/urgent.h"
 #include "rig/guard/guard_loop.h"
 #include "rig/setup/guard_setup.h"
 

@@ -16,7 +16,7 @@
 #include "server/jobs/job_words.h"
 #include "server/json_text.h"
 #include "server/live_lab.h"
-#include "server/page_message.h"
+#include "server/shown/page_message.h"
 #include "server/web_server.h"
 
 namespace faba {

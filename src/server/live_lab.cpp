@@ -4,24 +4,13 @@
 #include <cmath>
 
 #include "app/run/random_seed.h"
-#include "server/shown_run.h"
+#include "server/shown/run_news.h"
 
 namespace faba {
 namespace {
 
 constexpr double kStatePeriod = 0.5;  // s, interval of state messages
 constexpr double kLate = 0.25;        // s, maximum lag that is made up for
-
-Json box_json(const PictureBox& b) { return {b.left, b.top, b.right, b.bottom}; }
-
-// Name and largest current of every coil; a coil without a name has an empty one.
-Json coils_json(const Field& field, double limit) {
-  Json coils = Json::array();
-  const std::vector<double> most = field.max_currents(limit);
-  for (std::size_t k = 0; k < field.coils(); ++k)
-    coils.push_back({{"name", field.circuit(k).name}, {"max_a", most[k]}});
-  return coils;
-}
 
 }  // namespace
 
@@ -80,7 +69,7 @@ void LiveLab::run_loop(const std::stop_token& stop) {
     due_ = reported_ = Clock::now();
     reported_frame_ = 0;
     real_speed_ = 0;
-    broadcast(run_news());
+    broadcast(run_news(*shown_, run_));
     broadcast(state());
     try {
       shown_->live.run([&] { return between_frames(stop); });
@@ -159,61 +148,11 @@ Json LiveLab::state() const {
   return j;
 }
 
-Json LiveLab::run_news() const {
-  const LiveRun& live = shown_->live;
-  const Simulation& s = shown_->live.simulation();
-  const ScaleParams& scale = live.scenario().scale;
-  const World& w = s.world();
-  const Outline edge = w.parts().arena->outline();
-  Json populations = Json::array();
-  for (const Population& p : w.parts().populations)
-    populations.push_back(
-        {{"begin", p.begin}, {"end", p.end}, {"polarity", p.polarity > 0 ? "north" : "south"}});
-  Json j = parts_news();
-  j["say"] = "run";
-  j["run"] = run_;
-  j["seed"] = live.seed();
-  j["frame"] = {{"width", s.frame().width},
-                {"height", s.frame().height},
-                {"um_per_px", scale.um_per_px ? Json(*scale.um_per_px) : Json()},
-                {"nominal_um_per_px", scale.used_um_per_px()},
-                {"rate", live.scenario().camera.rate}};
-  j["outline"] = {{"centre_px", {edge.centre_image.x, edge.centre_image.y}}, {"radius_px", edge.radius_px}};
-  j["box"] = box_json(shown_->box);
-  j["populations"] = populations;
-  j["coils"] = coils_json(*w.parts().field, live.scenario().limits.max_current);
-  j["columns"] = shown_->columns;
-  return j;
-}
-
-Json LiveLab::history_news() const {
-  Json rows = Json::array();
-  for (std::size_t k = 0; k < shown_->history.size(); ++k) {
-    Json row = Json::array();
-    for (const double v : shown_->history.row(k)) row.push_back(v);  // written as null if not finite
-    rows.push_back(std::move(row));
-  }
-  return {{"say", "history"}, {"run", run_}, {"rows", std::move(rows)}};
-}
-
-Json LiveLab::parts_news() const {
-  const Simulation& s = shown_->live.simulation();
-  Json setpoints = Json::array();
-  for (const Vec2 p : s.reference().setpoints()) {
-    const Vec2 at = s.frame().image_from_world(p);
-    if (std::isfinite(at.x)) setpoints.push_back({at.x, at.y});
-  }
-  return {{"say", "parts"},
-          {"scenario", shown_->live.scenario().resolved()},
-          {"setpoints", setpoints},
-          {"events", shown_->live.exchanges()}};
-}
-
 void LiveLab::watch(std::uint64_t who, Listener l) {
   enqueue(
       [this, who, l = std::move(l)] {
-        if (shown_) l.news(run_news());
-        if (shown_ && shown_->history.size() > 0) l.news(history_news());
+        if (shown_) l.news(run_news(*shown_, run_));
+        if (shown_ && shown_->history.size() > 0) l.news(history_news(*shown_, run_));
         l.news(state());
         if (shown_ && shown_->live.frame() > 0) l.frame(shown_->message(run_, false, 0));
         const std::lock_guard lock(mutex_);
@@ -267,7 +206,7 @@ void LiveLab::exchange(Json event, Done done) {
   enqueue(
       [this, event = std::move(event)] {
         live().exchange(event);
-        broadcast(parts_news());
+        broadcast(parts_news(*shown_));
         return Json::object();
       },
       std::move(done));

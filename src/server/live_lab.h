@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "app/run/live_run.h"
-#include "server/frame_message.h"
+#include "server/shown/frame_message.h"
 
 namespace faba {
 
@@ -66,9 +66,6 @@ class LiveLab {
   std::shared_ptr<const std::string> frame(bool camera);
   void broadcast(const Json& news);
   Json state() const;
-  Json run_news() const;
-  Json history_news() const;
-  Json parts_news() const;
 
   Parts parts_;
   Pool pool_;

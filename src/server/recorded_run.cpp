@@ -6,7 +6,7 @@
 #include "app/recording/session.h"
 #include "core/file.h"
 #include "core/h5/h5.h"
-#include "server/frame_message.h"
+#include "server/shown/frame_message.h"
 #include "study/data/run_info.h"
 
 namespace faba {

@@ -9,7 +9,7 @@
 #include "app/recording/session.h"
 #include "core/error.h"
 #include "server/files/file_kinds.h"
-#include "server/gallery_index.h"
+#include "server/scenarios/gallery_index.h"
 #include "study/data/run_video.h"
 #include "study/experiment/experiment.h"
 

@@ -8,7 +8,7 @@
 #include "app/scenario/read_event.h"
 #include "app/scenario/read_scenario.h"
 #include "app/scenario/scenario.h"
-#include "server/page_message.h"
+#include "server/shown/page_message.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const faba::Parts parts = faba::builtin_parts();

@@ -1,4 +1,4 @@
-#include "server/row_history.h"
+#include "server/shown/row_history.h"
 
 #include <doctest/doctest.h>
 

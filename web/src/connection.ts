@@ -18,11 +18,24 @@ export interface Listener {
   state(s: { connected: boolean; refused: boolean }): void;
 }
 
+/** The way from the page to the program. */
+export interface Link {
+  /** Sends a request and returns its answer; never rejects. */
+  ask(what: string, values?: Record<string, unknown>): Promise<Answer>;
+  /** Reconnects at once. */
+  again(): void;
+  /** Round-trip time of the newest answer, ms. */
+  readonly roundTrip: number;
+  /** The program records runs and executes jobs. */
+  readonly records: boolean;
+}
+
 const kFirstWait = 250, kLongestWait = 4000; // ms
 const kPatience = 15000; // ms, timeout of an answer
 const kQuiet = 3000, kSilent = 8000; // ms without a message: send a ping; reconnect
 
-export class Connection {
+export class Connection implements Link {
+  readonly records = true;
   private socket: WebSocket | null = null;
   private next = 1;
   private waiting = new Map<number, (a: Answer) => void>();
@@ -147,9 +160,12 @@ export class RequestError extends Error {
   }
 }
 
+/** Answers the requests below; the demonstration has no server and replaces it. */
+export const server = { fetch: (path: string, init?: RequestInit): Promise<Response> => fetch(path, init) };
+
 /** fetch() rejects only when there is no answer at all; its own message does not tell the user what to do. */
 function request(path: string, init?: RequestInit) {
-  return fetch(path, init).catch(() => {
+  return server.fetch(path, init).catch(() => {
     throw new RequestError('', 'The server does not answer.', 'no_answer');
   });
 }

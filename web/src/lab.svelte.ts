@@ -2,7 +2,7 @@
 
 import { Bench } from './bench/bench.svelte';
 import { Changes } from './changes.svelte';
-import { Connection, get, type Answer, type News, type RequestError } from './connection';
+import { Connection, get, type Answer, type Link, type Listener, type News, type RequestError } from './connection';
 import type { Schema } from './form/schema';
 import { decodeFrame, runOf, type Frame } from './frame';
 import type { Word } from './i18n';
@@ -45,6 +45,18 @@ export interface Trouble {
   word?: Word;
 }
 
+/** State hash of a run up to a frame, as in the manifest of a recording. */
+export interface HashNews {
+  frame: number;
+  /** s */
+  t: number;
+  hash: string;
+  /** At the end of the scenario. */
+  end: boolean;
+  /** Parts were exchanged: the scenario alone does not give this hash. */
+  changed: boolean;
+}
+
 const kTick = 100; // ms
 
 export class Lab {
@@ -73,6 +85,8 @@ export class Lab {
   schema = $state.raw<Schema | null>(null);
   trouble = $state.raw<Trouble | null>(null);
   stopped = $state.raw<Trouble | null>(null);
+  /** Of the run when it was paused; only in the demonstration. */
+  hash = $state.raw<HashNews | null>(null);
   /** Increases when new data are available, at most ten times a second; triggers numbers and plots. The picture follows `frame`. */
   ticks = $state(0);
   private ticked = -Infinity;
@@ -81,15 +95,16 @@ export class Lab {
   // Not reactive: they change sixty times a second.
   frame: Frame | null = null;
   readonly series = new Series();
-  readonly link: Connection;
+  readonly link: Link;
   readonly changes = new Changes();
   readonly bench: Bench = new Bench(this);
 
   /** This page controls the run. False without a connection: all controls of the run are disabled. */
   readonly steers = $derived(this.connected && this.page !== 0 && this.page === this.steering);
 
-  constructor() {
-    this.link = new Connection({
+  /** `connect` opens the way to the program. */
+  constructor(connect: (listener: Listener) => Link = (listener) => new Connection(listener)) {
+    this.link = connect({
       news: (n) => this.onNews(n),
       frame: (b) => this.onFrame(b),
       state: (s) => {
@@ -146,6 +161,7 @@ export class Lab {
         this.scenario = n.scenario;
         this.events = n.events;
         this.stopped = null;
+        this.hash = null;
         this.series.begin(n.columns);
         this.changes.clear();
         this.frame = null;
@@ -179,6 +195,9 @@ export class Lab {
       case 'jobs':
         this.jobs = n.jobs;
         this.hasJobs = true;
+        break;
+      case 'hash':
+        this.hash = { frame: n.frame, t: n.t, hash: n.hash, end: n.end, changed: n.changed };
         break;
       case 'stopped':
         this.stopped = { where: n.where, what: n.what };

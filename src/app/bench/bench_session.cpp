@@ -10,7 +10,7 @@
 #include "app/recording/session.h"
 #include "core/file.h"
 #include "core/statistics.h"
-#include "core/urgent.h"
+#include "core/threads/urgent.h"
 
 namespace faba {
 namespace {

@@ -13,7 +13,7 @@
 #include "core/monotonic.h"
 #include "core/portable_math.h"
 #include "core/units.h"
-#include "core/urgent.h"
+#include "core/threads/urgent.h"
 #include "vision/files/video_reader.h"
 
 namespace faba {

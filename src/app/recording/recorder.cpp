@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "core/urgent.h"
+#include "core/threads/urgent.h"
 
 namespace faba {
 namespace {

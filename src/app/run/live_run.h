@@ -21,6 +21,7 @@ class LiveRun {
 
   std::uint64_t frame() const { return simulation_->loop().next; }  ///< number of frames so far
   Simulation& simulation() { return *simulation_; }
+  const Simulation& simulation() const { return *simulation_; }
   const Scenario& scenario() const { return now_; }  ///< with the current parts, without events
   std::uint64_t seed() const { return seed_; }
   std::size_t exchanges() const { return given_.size(); }  ///< number of stored exchanges

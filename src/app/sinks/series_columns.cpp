@@ -80,7 +80,7 @@ std::vector<SeriesColumn> columns_around(std::vector<SeriesColumn> currents) {
       {"field_x_ut", "uT", "field at the swarm's centroid, world frame", kAlways,
        [](const Cycle& m) { return field_ut(m).x; }},
       {"field_y_ut", "uT", "likewise, y up", kAlways, [](const Cycle& m) { return field_ut(m).y; }}};
-  std::ranges::move(currents, std::back_inserter(all));
+  std::move(currents.begin(), currents.end(), std::back_inserter(all));
   all.push_back({"limited", "", "1 if [limits] changed the command, otherwise 0", kAlways,
                  [](const Cycle& m) { return m.tick.limited ? 1.0 : 0.0; }});
   return all;

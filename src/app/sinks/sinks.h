@@ -66,6 +66,8 @@ struct SinkContext {
 void check_recording(const Record& record, const Frame& frame, double rate);
 
 class Simulation;
+/// What the rows of the series of a simulation of `s` need, without a run directory and drawings.
+SinkContext series_context(const Scenario& s, Simulation& simulation, Pool& pool);
 /// Context of the sinks of a simulation of `s`. `dir`: run directory.
 SinkContext sink_context(const Scenario& s, Simulation& simulation, Pool& pool,
                          const std::filesystem::path& dir);

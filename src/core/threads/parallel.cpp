@@ -29,8 +29,7 @@ unsigned number_of_threads(unsigned threads) {
 Pool::Pool(unsigned threads) {
   threads = number_of_threads(threads);
   try {
-    for (unsigned i = 1; i < threads; ++i)
-      workers_.emplace_back([this, i](const std::stop_token& stop) { work(i, stop); });
+    for (unsigned i = 1; i < threads; ++i) workers_.emplace_back([this, i] { work(i); });
   } catch (const std::system_error& e) {
     stop();  // the threads already started wait for work; without this their destructors would block
     throw too_many_threads(threads, workers_.size() + 1, e);
@@ -40,9 +39,10 @@ Pool::Pool(unsigned threads) {
 Pool::~Pool() { stop(); }
 
 void Pool::stop() {
-  for (auto& w : workers_) w.request_stop();
+  stopping_.store(true, std::memory_order_relaxed);
   round_.fetch_add(1, std::memory_order_release);
   round_.notify_all();
+  for (auto& w : workers_) w.join();
 }
 
 void Pool::run_share(unsigned index) {
@@ -54,12 +54,12 @@ void Pool::run_share(unsigned index) {
   }
 }
 
-void Pool::work(unsigned index, const std::stop_token& stop) {
+void Pool::work(unsigned index) {
   std::uint32_t seen = 0;
   for (;;) {
     for (int i = 0; i < kSpins && round_.load(std::memory_order_acquire) == seen; ++i) relax();
     round_.wait(seen, std::memory_order_acquire);
-    if (stop.stop_requested()) return;
+    if (stopping_.load(std::memory_order_relaxed)) return;
     seen = round_.load(std::memory_order_acquire);
     run_share(index);
     if (pending_.fetch_sub(1, std::memory_order_acq_rel) == 1) pending_.notify_one();

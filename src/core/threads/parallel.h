@@ -44,16 +44,17 @@ class Pool {
   }
 
  private:
-  void work(unsigned index, const std::stop_token& stop);
+  void work(unsigned index);
   void stop();
   void run_share(unsigned index);
 
-  std::vector<std::jthread> workers_;
+  std::vector<std::thread> workers_;
   const std::function<void(std::size_t)>* job_ = nullptr;
   std::size_t blocks_ = 0;
   std::atomic<std::uint32_t> round_{0};    ///< incremented to start a job
   std::atomic<std::uint32_t> pending_{0};  ///< workers that have not finished it
   std::atomic<bool> failed_{false};
+  std::atomic<bool> stopping_{false};
   std::exception_ptr error_;
 };
 

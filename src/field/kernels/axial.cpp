@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 
+#include "core/portable.h"
 #include "core/portable_math.h"
 #include "core/vectorised.h"
 
@@ -25,7 +25,7 @@ using Column = std::array<double, kTile + 8>;
 /// normal); the error is a few roundings. Division and square root share one slow unit of the processor;
 /// computing some of the roots with multiplications keeps the other units busy.
 [[gnu::always_inline]] inline double by_root(double x) {
-  auto y = std::bit_cast<double>(0x5FE6EB50C7B537A9ull - (std::bit_cast<std::uint64_t>(x) >> 1));
+  auto y = portable::bit_cast<double>(0x5FE6EB50C7B537A9ull - (portable::bit_cast<std::uint64_t>(x) >> 1));
   const double half = 0.5 * x;
 #pragma GCC unroll 4
   for (int i = 0; i < 4; ++i) y *= 1.5 - half * y * y;
@@ -130,12 +130,12 @@ template <bool third>
 
 // Minimum of non-negative numbers as bits, whose order is the same: this minimum vectorises.
 [[gnu::always_inline]] inline std::uint64_t lesser(std::uint64_t bits, double x) {
-  const auto other = std::bit_cast<std::uint64_t>(x);
+  const auto other = portable::bit_cast<std::uint64_t>(x);
   return other < bits ? other : bits;
 }
 
 FABA_VECTORISED double begin_sheet(const Circle& circle, double half, Tile& t) {
-  auto least = std::bit_cast<std::uint64_t>(1.0);
+  auto least = portable::bit_cast<std::uint64_t>(1.0);
   FABA_ELEMENTWISE
   for (std::size_t i = 0; i < t.size; ++i) {
     const double rho = t.rho[i];
@@ -145,7 +145,7 @@ FABA_VECTORISED double begin_sheet(const Circle& circle, double half, Tile& t) {
     begin<true, Root::unit>(circle, rho, t.z[i] - half, g, t.lower, i);
     least = lesser(lesser(least, t.upper.kc[i]), t.lower.kc[i]);
   }
-  return std::bit_cast<double>(least);
+  return portable::bit_cast<double>(least);
 }
 FABA_VECTORISED void pass_sheet(double weight, Tile& t) {
   FABA_ELEMENTWISE
@@ -167,13 +167,13 @@ FABA_VECTORISED void end_sheet(const Circle& circle, double half, double weight,
 }
 
 FABA_VECTORISED double begin_loop(const Circle& circle, Tile& t) {
-  auto least = std::bit_cast<std::uint64_t>(1.0);
+  auto least = portable::bit_cast<std::uint64_t>(1.0);
   FABA_ELEMENTWISE
   for (std::size_t i = 0; i < t.size; ++i) {
     begin<false, Root::newton>(circle, t.rho[i], t.z[i], 0, t.upper, i);
     least = lesser(least, t.upper.kc[i]);
   }
-  return std::bit_cast<double>(least);
+  return portable::bit_cast<double>(least);
 }
 FABA_VECTORISED void pass_loop(double weight, Tile& t) {
   FABA_ELEMENTWISE

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/monotonic.h"
-#include "core/urgent.h"
+#include "core/threads/urgent.h"
 
 namespace faba {
 namespace {

@@ -15,7 +15,7 @@
 
 #include "core/child.h"
 #include "core/monotonic.h"
-#include "core/urgent.h"
+#include "core/threads/urgent.h"
 
 namespace faba {
 namespace {

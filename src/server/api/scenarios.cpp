@@ -1,11 +1,9 @@
-#include "app/run/notes.h"
-#include "app/scenario/read_scenario.h"
-#include "app/scenario/scenario.h"
 #include "app/scenario/scenario_schema.h"
 #include "core/error.h"
 #include "server/api/lab_services.h"
 #include "server/api/responses.h"
 #include "server/request_values.h"
+#include "server/scenarios/scenario_check.h"
 
 namespace faba {
 namespace {
@@ -20,13 +18,7 @@ Json check(const LabServices& lab, const Json& asked) {
     else
       throw Error(Errc::usage, "scenario", "missing; it must be an object");
     lab.workspace.check_files(d.root);
-    const Scenario s = read_scenario(d, lab.parts);
-    Pool pool(1);
-    const Simulation simulation(s, s.params.seed.value_or(1), pool);
-    return {{"ok", true},
-            {"resolved", s.resolved()},
-            {"toml", to_toml(s.resolved())},
-            {"notes", scenario_notes(s, simulation, lab.workspace.root())}};
+    return scenario_check(d, lab.parts, lab.workspace.root());
   } catch (const Error& e) {
     return {{"ok", false}, {"where", lab.workspace.in_page(e.where())}, {"what", e.reason()}};
   }

@@ -6,6 +6,7 @@ import * as app from './app';
 import * as assistant from './assistant';
 import * as bench from './bench';
 import * as coils from './coils';
+import * as demo from './demo';
 import * as experiments from './experiments';
 import * as form from './form';
 import * as gallery from './gallery';
@@ -27,6 +28,7 @@ const en = {
   ...assistant.en,
   ...bench.en,
   ...coils.en,
+  ...demo.en,
   ...experiments.en,
   ...form.en,
   ...gallery.en,
@@ -48,6 +50,7 @@ const pt = {
   ...assistant.pt,
   ...bench.pt,
   ...coils.pt,
+  ...demo.pt,
   ...experiments.pt,
   ...form.pt,
   ...gallery.pt,

@@ -1,8 +1,8 @@
 #include "vision/image/kernels/all_finite.h"
 
-#include <bit>
 #include <cstdint>
 
+#include "core/portable.h"
 #include "core/vectorised.h"
 
 namespace faba {
@@ -13,7 +13,7 @@ namespace {
 FABA_VECTORISED std::uint32_t largest_exponent(const float* px, int n) {
   std::uint32_t largest = 0;
   for (int i = 0; i < n; ++i) {
-    const std::uint32_t exponent = std::bit_cast<std::uint32_t>(px[i]) & 0x7f800000U;
+    const std::uint32_t exponent = portable::bit_cast<std::uint32_t>(px[i]) & 0x7f800000U;
     largest = exponent > largest ? exponent : largest;
   }
   return largest;

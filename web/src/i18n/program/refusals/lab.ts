@@ -133,4 +133,6 @@ export const lab: Record<string, string> = {
   'cannot listen on this port: {}; choose another port, or 0 for any free port': 'não é possível escutar nesta porta: {}; escolha outra porta, ou 0 para qualquer porta livre',
   '"{}" is not the name of a visible file': '"{}" não é o nome de um arquivo visível',
   'the picture cannot be stored: {}': 'a imagem não pode ser guardada: {}',
+  'not available in the demonstration; install the program': 'não disponível na demonstração; instale o programa',
+  'the demonstration does not record; install the program to record runs': 'a demonstração não grava; instale o programa para gravar execuções',
 };

@@ -1,4 +1,4 @@
-#include "server/page_message.h"
+#include "server/shown/page_message.h"
 
 #include <fmt/format.h>
 

@@ -6,8 +6,8 @@
 
 #include "app/run/live_run.h"
 #include "app/sinks/series_row.h"
-#include "server/frame_message.h"
-#include "server/row_history.h"
+#include "server/shown/frame_message.h"
+#include "server/shown/row_history.h"
 
 namespace faba {
 

@@ -1,4 +1,4 @@
-#include "server/frame_message.h"
+#include "server/shown/frame_message.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,4 +1,4 @@
-#include "server/gallery_index.h"
+#include "server/scenarios/gallery_index.h"
 
 #include "core/toml.h"
 

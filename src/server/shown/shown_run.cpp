@@ -1,4 +1,4 @@
-#include "server/shown_run.h"
+#include "server/shown/shown_run.h"
 
 #include <cmath>
 #include <cstddef>
@@ -17,7 +17,7 @@ constexpr std::size_t kMostHeadings = 20000;  // headings are not visible for mo
 ShownRun::ShownRun(const Document& d, std::uint64_t seed, const Parts& parts, Pool& pool)
     : document(d),
       live(d, seed, parts, pool),
-      row(sink_context(live.scenario(), live.simulation(), pool, {})),
+      row(series_context(live.scenario(), live.simulation(), pool)),
       columns(row.names()),
       history(kHistory) {
   columns.emplace_back("activity_um_s");

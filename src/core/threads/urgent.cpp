@@ -1,4 +1,4 @@
-#include "core/urgent.h"
+#include "core/threads/urgent.h"
 
 #include <sched.h>
 #include <sys/syscall.h>
@@ -13,8 +13,13 @@ constexpr std::int32_t kNiceness = -10;
 constexpr std::uint64_t kSlice =
     100'000;  // ns, the minimum of the scheduler: a thread with a shorter slice runs first
 
+#if defined(SYS_sched_getattr) && defined(SYS_sched_setattr)
 bool get(Urgent::Attributes& a) { return syscall(SYS_sched_getattr, 0, &a, sizeof a, 0) == 0; }
 bool set(const Urgent::Attributes& a) { return syscall(SYS_sched_setattr, 0, &a, 0) == 0; }
+#else
+bool get(Urgent::Attributes&) { return false; }
+bool set(const Urgent::Attributes&) { return false; }
+#endif
 
 }  // namespace
 
