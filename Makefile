@@ -44,13 +44,13 @@ test-portability:     ## run the same tests on this machine with unsigned char, 
 	  ctest --test-dir build/$$leg --no-tests=error --output-on-failure -j $(JOBS) || exit 1; done
 
 # Exit code 77 of arm64_sysroot.sh: no package can be downloaded.
-arm64: build          ## cross-build the program and the Python package for arm64 in build-arm64/, run them under emulation and compare with build/faba
+arm64: build          ## cross-build the program and the Python package for arm64 in build/arm64/, run them under emulation and compare with build/faba
 	@$(SETUP) arm64 python
-	@tools/arm64_sysroot.sh build-arm64/sysroot || { code=$$?; [ $$code -eq 77 ] || exit $$code; \
+	@tools/arm64_sysroot.sh build/arm64/sysroot || { code=$$?; [ $$code -eq 77 ] || exit $$code; \
 	  echo "make arm64: SKIPPED; the reason is above"; exit 0; }; \
 	cmake --preset arm64 --log-level=WARNING > /dev/null && \
-	cmake --build build-arm64 -j $(JOBS) --target faba python tests_core tests_vision tests_rig && \
-	ctest --test-dir build-arm64 --no-tests=error --output-on-failure -j $(JOBS) -R '^(core|vision|rig)\.|^e2e\.arm64$$'
+	cmake --build build/arm64 -j $(JOBS) --target faba python tests_core tests_vision tests_rig && \
+	ctest --test-dir build/arm64 --no-tests=error --output-on-failure -j $(JOBS) -R '^(core|vision|rig)\.|^e2e\.arm64$$'
 
 python:               ## build the Python package: build/python/faba; use it with PYTHONPATH=build/python /usr/bin/python3
 	@$(SETUP) python
@@ -143,8 +143,8 @@ docs: build           ## regenerate docs/reference from the program, and the pic
 	@$(SETUP) docs
 	@/usr/bin/python3 tools/make_docs.py --picture
 
-clean:                ## delete build/ and build-arm64/; runs/ is kept
-	@rm -rf build build-arm64
+clean:                ## delete build/; runs/ is kept
+	@rm -rf build
 
 help:                 ## list the targets
 	@grep -E '^[a-z0-9 -]+:.*##' Makefile | sed -E 's/:[^#]*## /\t/' | expand -t 20

@@ -3,7 +3,7 @@
 and the same values in tracks.h5; a simulated bench with the guard; the Python module. A check that cannot run here is printed as SKIPPED, and the exit code is
 then 77.
 
-    arm64_test.py --program build-arm64/faba --sysroot build-arm64/sysroot --reference build/faba --root ."""
+    arm64_test.py --program build/arm64/faba --sysroot build/arm64/sysroot --reference build/faba --root ."""
 
 import argparse
 import csv
