@@ -3,7 +3,7 @@ SHELL := /bin/bash
 JOBS ?= $(shell nproc)
 SETUP = tools/setup.sh
 
-.PHONY: run lab page python train-example test test-engines test-arm64 test-portability arm64 demo test-demo setup build bench accuracy reproduce format lint asan tsan dev fuzz docs clean help
+.PHONY: run lab page python train-example test test-engines test-arm64 test-portability arm64 demo test-demo package test-package setup build bench accuracy reproduce format lint asan tsan dev fuzz docs clean help
 
 run: build            ## build the program and run scenes/steer.toml: a swarm is steered along a route
 	@build/faba run scenes/steer.toml --seed 1 --force --out runs/steer
@@ -65,12 +65,20 @@ train-example: python ## install PyTorch, train the policy of examples/ that hol
 	  /usr/bin/python3 examples/train_hold.py && \
 	  /usr/bin/python3 examples/evaluate_hold.py --bench --curve docs/img/hold-learning.svg
 
+package: setup        ## build the Debian packages faba and faba-camera: build/package/*.deb; needs no other build
+	@$(SETUP) python package
+	@packaging/package.sh
+
+test-package: package ## install the packages in a bare Debian 12 and use them as an unprivileged user; build them twice and compare
+	@/usr/bin/python3 tests/packaging/package_test.py --camera || { code=$$?; [ $$code -eq 77 ] || exit $$code; }
+	@tests/packaging/same_bytes.sh
+
 setup:                ## install the packages for building (apt-get; with sudo if not root)
 	@$(SETUP)
 
 build: setup          ## build the program: build/faba
 	@cmake --preset release --log-level=WARNING -DBUILD_TESTING=OFF > /dev/null
-	@cmake --build build -j $(JOBS) --target faba
+	@cmake --build build -j $(JOBS) --target faba share
 
 bench: build          ## measure speed and compare it with NumPy, Octave and hardware limits; tables in bench/results/
 	@$(SETUP) test bench python

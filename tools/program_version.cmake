@@ -1,5 +1,5 @@
 # Writes the definition of program_version() (src/study/sweep/program_version.h), with a hash of all source files.
-#   cmake -D SOURCE=folder -D VERSION=0.1.0 -D OUTPUT=file -P program_version.cmake
+#   cmake -D SOURCE=folder -D VERSION=0.2.0 -D OUTPUT=file -P program_version.cmake
 file(GLOB_RECURSE files RELATIVE ${SOURCE} ${SOURCE}/*.h ${SOURCE}/*.cpp)
 list(SORT files)
 set(all "")

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the packages for building Faba on Debian 12, and those for the purposes given as arguments (test, bench, lint,
-# docs, fuzz, engines, python, torch, arm64, portability, demo). Prints the packages that it installs; does nothing if all of them are installed.
+# docs, fuzz, engines, python, torch, arm64, portability, demo, package). Prints the packages that it installs; does nothing if all of them are installed.
 # With --print as the first argument it only prints the names of the packages, one per line.
 set -euo pipefail
 
@@ -31,10 +31,11 @@ for what in "$@"; do
     docs) packages+=(python3 ffmpeg) ;;
     fuzz) packages+=(clang libclang-rt-14-dev) ;;
     engines) packages+=(python3 slurmctld slurmd slurm-client munge parallel python3-distributed) ;;
+    package) packages+=(dpkg-dev debhelper dh-python python3-all lintian pandoc bash-completion man-db debootstrap desktop-file-utils appstream) ;;
     torch) packages+=(python3-torch) ;;
     arm64) packages+=(doctest-dev python3 g++-aarch64-linux-gnu qemu-user) ;;
     portability) packages+=(doctest-dev python3 clang-16) ;;
-    *) echo "setup.sh: \"$what\" is not one of test, bench, lint, docs, fuzz, engines, python, torch, arm64, portability, demo" >&2; exit 2 ;;
+    *) echo "setup.sh: \"$what\" is not one of test, bench, lint, docs, fuzz, engines, python, torch, arm64, portability, demo, package" >&2; exit 2 ;;
   esac
 done
 

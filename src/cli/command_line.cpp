@@ -11,6 +11,7 @@
 #include <ctime>
 
 #include "core/error.h"
+#include "core/installation.h"
 
 namespace faba::cli {
 namespace {
@@ -80,6 +81,14 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
             return fmt::format("\"{}\" is not one of {}", text, fmt::join(words, ", "));
           },
           fmt::format("{{{}}}", fmt::join(words, ","))};
+}
+
+CLI::Validator or_example(const std::string& folder) {
+  return {[folder](std::string& text) -> std::string {
+            text = file_or_example(text, folder).string();
+            return "";
+          },
+          ""};
 }
 
 const std::string& program() { return program_name; }

@@ -46,6 +46,10 @@ CLI::Validator integers(std::int64_t min, std::int64_t max);
 /// Check of an option with a list of permitted words; the help shows the list.
 CLI::Validator one_of(const std::vector<std::string>& words);
 
+/// An option with a file that may be named as an example of a folder, "scenes", "rigs" or "studies": its
+/// value becomes the path of the file (file_or_example()).
+CLI::Validator or_example(const std::string& folder);
+
 /// The name under which the program was called, for commands in messages.
 const std::string& program();
 void set_program(const char* name);

@@ -69,7 +69,7 @@ int dispatch(int argc, char** argv) {
   app.require_subcommand(1);
   app.group("Commands");  // heading of the list of commands, also in the help of all commands
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
-  app.footer("Options of a command: faba COMMAND --help\nFirst run: faba run scenes/steer.toml");
+  app.footer("Options of a command: faba COMMAND --help\nFirst run: faba run steer");
   CommandLine line;
   add_verbs(app, line);
 

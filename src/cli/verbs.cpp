@@ -6,6 +6,7 @@ namespace faba::cli {
 // To add a verb: write its file, which has `void add_NAME(CLI::App& app, CommandLine& line)`, and add its
 // line here.
 #define FABA_VERBS(X)    \
+  X(init)                \
   X(run)                 \
   X(resume)              \
   X(lab)                 \

@@ -10,30 +10,9 @@
 #include <cstring>
 #include <thread>
 
-#include "core/error.h"
 #include "core/monotonic.h"
 
 namespace faba {
-namespace {
-
-std::filesystem::path& folder() {
-  static std::filesystem::path path;  // empty: that of this program
-  return path;
-}
-
-}  // namespace
-
-std::filesystem::path program_file(const std::string& name) {
-  if (!folder().empty()) return folder() / name;
-  std::error_code ec;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", ec);
-  if (ec) throw Error(Errc::internal, name, "the folder of this program cannot be read: " + ec.message());
-  // A copy of the program with another name starts itself, and no other build in its folder.
-  return name == "faba" ? self : self.parent_path() / name;
-}
-
-void set_program_folder(const std::filesystem::path& path) { folder() = path; }
-
 void end_child(pid_t process, double timeout) noexcept {
   if (process <= 0) return;
   kill(process, SIGCONT);

@@ -4,8 +4,8 @@
 
 #include "app/scenario/rig_file.h"
 #include "app/scenario/scenario_schema.h"
-#include "core/child.h"
 #include "core/counted.h"
+#include "core/installation.h"
 #include "field/allocate.h"
 #include "field/null.h"
 #include "python/convert.h"

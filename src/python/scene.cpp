@@ -4,6 +4,7 @@
 
 #include "app/run/random_seed.h"
 #include "app/scenario/read_scenario.h"
+#include "core/installation.h"
 #include "python/convert.h"
 
 namespace faba::python {
@@ -26,8 +27,9 @@ Document read_source(const py::object& scene) {
     throw Error(Errc::usage, "scene",
                 fmt::format("has the type {}; give the path of a scenario, its text, or a dictionary",
                             py::str(py::type::of(scene).attr("__name__")).cast<std::string>()));
-  const auto text = path.cast<std::string>();
+  auto text = path.cast<std::string>();
   const bool is_text = path.is(scene) && is_toml_text(text);
+  if (!is_text) text = file_or_example(text, "scenes").string();
   Document d = is_text ? parse_toml(text, "scene") : read_toml(text);
   if (!d.root.contains("title"))
     d.set("title", Json(is_text ? "scene" : std::filesystem::path(text).stem().string()), text);

@@ -12,6 +12,7 @@
 
 #include "core/child.h"
 #include "core/file.h"
+#include "core/installation.h"
 #include "core/monotonic.h"
 #include "rig/bench/bench_socket.h"
 

@@ -22,14 +22,15 @@ bool holds_run(const std::filesystem::path& dir) {
 // Creates the directory if necessary; returns whether it is new. All checks of an existing directory are done
 // here, before anything in it is removed.
 bool make_directory(const std::filesystem::path& dir, bool force) {
-  std::error_code ec;
-  if (dir.has_parent_path()) std::filesystem::create_directories(dir.parent_path(), ec);
+  std::error_code of_parent, ec;
+  if (dir.has_parent_path()) std::filesystem::create_directories(dir.parent_path(), of_parent);
   if (std::filesystem::create_directory(dir, ec)) return true;
   if (!std::filesystem::is_directory(dir)) {
     if (std::filesystem::exists(std::filesystem::symlink_status(dir)))
       throw Error(Errc::usage, dir.string(), "exists and is not a directory");
-    throw Error(Errc::internal, dir.string(),
-                fmt::format("cannot be created: {}; choose another --out", ec.message()));
+    throw Error(
+        Errc::internal, dir.string(),
+        fmt::format("cannot be created: {}; choose another --out", (of_parent ? of_parent : ec).message()));
   }
   if (std::filesystem::is_empty(dir, ec)) return false;
   if (!holds_run(dir))

@@ -9,7 +9,9 @@
 namespace faba::cli {
 
 void add_bench_scene(CLI::App* v, SceneOptions& o) {
-  v->add_option("scene", o.scene, "Scenario file (TOML) with the table [rig]")->required();
+  v->add_option("scene", o.scene, "Scenario file (TOML) with the table [rig], or an example such as bench")
+      ->required()
+      ->transform(or_example("scenes"));
   v->add_option("--set", o.set, "Set one value of the scenario: PATH=VALUE")
       ->take_all()
       ->allow_extra_args(false);

@@ -4,8 +4,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "core/child.h"
 #include "core/error.h"
+#include "core/installation.h"
 #include "study/engines/engines.h"
 
 namespace faba::cli {

@@ -12,7 +12,9 @@
 namespace faba::cli {
 
 void add_rig_file(CLI::App* v, std::filesystem::path& rig) {
-  v->add_option("rig", rig, "Coil system file (TOML)")->required();
+  v->add_option("rig", rig, "Coil system file (TOML), or an example such as helmholtz")
+      ->required()
+      ->transform(or_example("rigs"));
 }
 
 double metres(const std::string& option, const std::string& text) {

@@ -107,7 +107,9 @@ void add_study_run_options(CLI::App* v, StudyOptions& o, const std::string& fold
 }
 
 void add_study_options(CLI::App* v, StudyOptions& o) {
-  v->add_option("study", o.study, "Study file (TOML)")->required();
+  v->add_option("study", o.study, "Study file (TOML), or the name of an example")
+      ->required()
+      ->transform(or_example("studies"));
   v->add_option("--shard", o.shard,
                 "Compute only this part of the simulations, such as 3/16, to use several machines")
       ->check(not_empty);

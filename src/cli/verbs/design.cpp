@@ -29,7 +29,9 @@ void add_design(CLI::App& app, CommandLine& line) {
       verb(app, line, "design", "Gains, poles and stability margins of the controller of a scenario",
            "  faba design scenes/bench.toml --set 'controller={type=\"lqr\"}'\n"
            "  faba design scenes/bench.toml --set 'controller={type=\"lqr\",error_px=5}' --json");
-  v->add_option("scene", o->scene, "Scenario file (TOML)")->required();
+  v->add_option("scene", o->scene, "Scenario file (TOML), or an example such as bench")
+      ->required()
+      ->transform(or_example("scenes"));
   v->add_option("--set", o->set, "Set one value of the scenario: PATH=VALUE")
       ->take_all()
       ->allow_extra_args(false);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include <thread>
 
 #include "cli/command_line.h"
+#include "cli/installed_parts.h"
 #include "core/toml.h"
 #include "study/sweep/program_version.h"
 
@@ -42,20 +44,19 @@ const char* vector_unit() {
 #endif
 }
 
-int doctor(const Common& c) {
+Json machine() {
   std::error_code ec;
   const auto space = std::filesystem::space(".", ec);
-  const Json j = {{"version", FABA_VERSION},
-                  {"build", program_version()},
-                  {"processor", value_of("/proc/cpuinfo", "model name")},
-                  {"threads", std::thread::hardware_concurrency()},
-                  {"vector_unit", vector_unit()},
-                  {"memory_free_gb", free_memory_gb()},
-                  {"disk_free_gb", ec ? Json() : Json(std::round(double(space.available) * 1e-6) / 1e3)}};
-  if (c.json) {
-    fmt::print("{}\n", j.dump());
-    return 0;
-  }
+  return {{"version", FABA_VERSION},
+          {"build", program_version()},
+          {"processor", value_of("/proc/cpuinfo", "model name")},
+          {"threads", std::thread::hardware_concurrency()},
+          {"vector_unit", vector_unit()},
+          {"memory_free_gb", free_memory_gb()},
+          {"disk_free_gb", ec ? Json() : Json(std::round(double(space.available) * 1e-6) / 1e3)}};
+}
+
+void print_machine(const Json& j) {
   for (const auto& [name, key] : {std::pair{"version", "version"},
                                   {"build", "build"},
                                   {"processor", "processor"},
@@ -66,13 +67,33 @@ int doctor(const Common& c) {
        {std::pair{"free memory", "memory_free_gb"}, {"free disk space", "disk_free_gb"}})
     fmt::print("{:<16}{}\n", name,
                j[key].is_null() ? "unknown" : fmt::format("{:.1f} GB", j[key].get<double>()));
-  return 0;
+}
+
+int doctor(const Common& c) {
+  Json j = machine();
+  const std::vector<InstalledPart> parts = installed_parts();
+  const bool complete =
+      std::all_of(parts.begin(), parts.end(), [](const auto& p) { return p.present || !p.required; });
+  if (c.json) {
+    for (const InstalledPart& p : parts)
+      j["parts"].push_back(
+          {{"name", p.name}, {"present", p.present}, {"required", p.required}, {"note", p.note}});
+    fmt::print("{}\n", j.dump());
+    return complete ? 0 : 1;
+  }
+  print_machine(j);
+  fmt::print("\n");
+  for (const InstalledPart& p : parts)
+    fmt::print("{:<16}{:<9}{}\n", p.name, p.present ? "yes" : p.required ? "MISSING" : "no", p.note);
+  return complete ? 0 : 1;
 }
 
 }  // namespace
 
 void add_doctor(CLI::App& app, CommandLine& line) {
-  CLI::App* v = verb(app, line, "doctor", "Report the properties of this machine", "  faba doctor");
+  CLI::App* v =
+      verb(app, line, "doctor", "Report the properties of this machine, and which parts of Faba are missing",
+           "  faba doctor");
   v->callback([&line] { line.code = doctor(line.common); });
 }
 

@@ -9,8 +9,8 @@
 #include <filesystem>
 
 #include "cli/command_line.h"
-#include "core/child.h"
 #include "core/error.h"
+#include "core/installation.h"
 #include "core/toml.h"
 #include "server/lab.h"
 
@@ -44,7 +44,7 @@ void open_browser(const std::filesystem::path& door) {
 int lab(const LabVerb& v, const Common& c) {
   LabOptions o;
   o.program = program_file("faba");
-  o.scenes = o.program.parent_path().parent_path() / "scenes";
+  o.scenes = examples_folder() / "scenes";
   o.scene = v.scene;
   o.pages = v.pages;
   o.allowed = v.allowed;
@@ -71,7 +71,9 @@ void add_lab(CLI::App& app, CommandLine& line) {
   const auto o = std::make_shared<LabVerb>();
   CLI::App* v = verb(app, line, "lab", "Start the live lab: watch, steer and record a swarm in a browser",
                      "  faba lab\n  faba lab scenes/steer.toml\n  faba lab --no-browser --port 8765");
-  v->add_option("scene", o->scene, "Scenario file to open; default: the page shows the gallery");
+  v->add_option("scene", o->scene,
+                "Scenario file to open, or an example such as steer; default: the page shows the gallery")
+      ->transform(or_example("scenes"));
   v->add_option("--port", o->port, "Port on 127.0.0.1; default: any free port")->check(integers(0, 65535));
   v->add_option(
        "--allow", o->allowed,

@@ -59,7 +59,9 @@ void add_run(CLI::App& app, CommandLine& line) {
            "  faba run scenes/steer.toml\n"
            "  faba run scenes/thesis-basic.toml --seed 7 --out runs/a --set swarm[0].model.max_speed=5\n"
            "  faba run scenes/drop.toml --from-video drop.tif --duration \"10 s\"");
-  v->add_option("scene", o->scene, "Scenario file (TOML)")->required();
+  v->add_option("scene", o->scene, "Scenario file (TOML), or an example such as steer")
+      ->required()
+      ->transform(or_example("scenes"));
   v->add_option("--set", o->set, "Set one value of the scenario: PATH=VALUE")
       ->take_all()
       ->allow_extra_args(false);

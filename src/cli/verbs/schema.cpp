@@ -52,8 +52,10 @@ Json described_option(const CLI::Option& o) {
 Json described_verbs(const CLI::App& app, const std::string& parent) {
   Json all = Json::array();
   for (const CLI::App* v : app.get_subcommands([](const CLI::App*) { return true; })) {
-    Json one{
-        {"name", parent + v->get_name()}, {"description", v->get_description()}, {"options", Json::array()}};
+    Json one{{"name", parent + v->get_name()},
+             {"description", v->get_description()},
+             {"footer", v->get_footer()},
+             {"options", Json::array()}};
     for (const CLI::Option* o : v->get_options()) one["options"].push_back(described_option(*o));
     all.push_back(one);
     for (const Json& inner : described_verbs(*v, one["name"].get<std::string>() + " ")) all.push_back(inner);

@@ -141,7 +141,9 @@ void add_tune(CLI::App& app, CommandLine& line) {
            "  faba tune scenes/bench.toml\n"
            "  faba tune scenes/bench.toml --controller lqr --metric settling_time_s\n"
            "  faba tune scenes/bench.toml --range gain=0.1..2 --range \"lead=20 ms..300 ms\" --engine local");
-  v->add_option("scene", o->study.study, "Scenario file (TOML)")->required();
+  v->add_option("scene", o->study.study, "Scenario file (TOML), or an example such as bench")
+      ->required()
+      ->transform(or_example("scenes"));
   v->add_option("--controller", o->choice.controller,
                 "Controller to tune, with its default values; default: that of the scenario")
       ->check(not_empty);

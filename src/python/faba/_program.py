@@ -19,10 +19,12 @@ from . import _faba
 
 
 def _find() -> pathlib.Path:
-    """The program: $FABA_PROGRAM, beside the package in a source tree, or in PATH."""
+    """The program: $FABA_PROGRAM, beside the package in a source tree, under its prefix if it is installed, or in PATH."""
     given = os.environ.get("FABA_PROGRAM")
     candidates = [pathlib.Path(given)] if given else []
-    candidates.append(pathlib.Path(__file__).resolve().parents[2] / "faba")
+    package = pathlib.Path(__file__).resolve().parent
+    candidates.append(package.parents[1] / "faba")  # build/python/faba
+    candidates.append(package.parents[3] / "bin" / "faba")  # PREFIX/lib/python3/dist-packages/faba
     found = shutil.which("faba")
     if found:
         candidates.append(pathlib.Path(found).resolve())

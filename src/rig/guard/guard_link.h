@@ -7,7 +7,7 @@
 #include <optional>
 #include <thread>
 
-#include "core/child.h"
+#include "core/installation.h"
 #include "rig/setup/guard_message.h"
 #include "rig/setup/guard_setup.h"
 

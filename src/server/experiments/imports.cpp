@@ -61,10 +61,14 @@ void append(const fs::path& file, const std::string& bytes, std::uint64_t offset
     if (n <= 0) break;
     done += std::size_t(n);
   }
-  const int wrong = errno;
-  if (done < bytes.size()) (void)::ftruncate(fd, off_t(offset));
+  std::string wrong;
+  if (done < bytes.size()) {
+    wrong = std::strerror(errno);
+    // The page sends this piece again.
+    if (::ftruncate(fd, off_t(offset)) != 0) wrong += "; the file is incomplete, delete it";
+  }
   ::close(fd);
-  if (done < bytes.size()) throw Error(Errc::internal, file.filename().string(), std::strerror(wrong));
+  if (!wrong.empty()) throw Error(Errc::internal, file.filename().string(), wrong);
 }
 
 fs::path unused(const fs::path& folder, const std::string& name) {

@@ -75,7 +75,9 @@ void add_field_fit(CLI::App& field, CommandLine& line) {
            "  faba field fit rigs/flat-coil.toml --map measured.csv\n"
            "  faba field fit rig.toml --map measured.h5 --out fitted.toml --picture residual.svg\n"
            "  faba field fit rig.toml --map scan.dat --columns z,b --units cm,G");
-  v->add_option("rig", o->rig, "Coil system file (TOML), with the currents of the measurement")->required();
+  v->add_option("rig", o->rig, "Coil system file (TOML), with the currents of the measurement")
+      ->required()
+      ->transform(or_example("rigs"));
   v->add_option("--map", o->measured,
                 "Measured field, text or HDF5: positions and components, or a scan along an axis")
       ->required()

@@ -71,7 +71,8 @@ void add_study_plan(CLI::App& study, CommandLine& line) {
                      "  faba study collect runs/mine");
   v->add_option("study", o->study,
                 "Study file (TOML) of identify, calibrate, compare-controllers or activity")
-      ->required();
+      ->required()
+      ->transform(or_example("studies"));
   v->add_option("-o,--out", o->out, "Directory of the study; default: runs/NAME")->check(not_empty);
   v->add_flag("--force", o->force, "Replace another study in the directory");
   v->callback([o, &line] { line.code = study_plan(*o, line.common); });

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "core/child.h"
+#include "core/installation.h"
 
 using namespace faba;
 

@@ -1,0 +1,27 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+namespace faba {
+
+/// Path of one of Faba's programs and modules: "faba", "faba-coil-guard", "faba-capture.so". In a build
+/// directory they are in one folder, that of this program, unless set_program_folder() names another; under
+/// an installation prefix the last two are in libexec/faba. "faba" is this program, whatever its file is
+/// named. Throws Error(internal).
+std::filesystem::path program_file(const std::string& name);
+
+/// For a process that is not one of them, such as a Python interpreter. To be called before other threads
+/// are started.
+void set_program_folder(const std::filesystem::path& folder);
+
+/// The folder that holds the examples, scenes/, rigs/ and studies/: PREFIX/share/faba, or the root of the
+/// source tree. Empty if there is none.
+std::filesystem::path examples_folder();
+
+/// The file that a user names on a command line. The name of an example, without folder and extension, is
+/// that example: "steer" with the folder "scenes" is scenes/steer.toml of examples_folder(), unless there is
+/// a file "steer". If an example was named by its path, but is not in the current folder, throws Error(usage)
+/// with the advice; other missing files are reported by whoever opens them.
+std::filesystem::path file_or_example(const std::filesystem::path& named, const std::string& folder);
+
+}  // namespace faba
