@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Builds the Debian packages of Faba in a clean copy of the source: build/package/*.deb, with the bits of `make run`.
 #   packaging/package.sh [OUT]      OUT: folder of the packages; default: build/package
+# With FABA_ARCH=arm64 it cross-builds those for arm64, after those of this machine.
 # Two calls from one commit give the same bytes: the time in all files is that of the commit.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -27,6 +28,14 @@ fi
 cp -r "$source/packaging/debian" "$source/debian"
 sed -e "s/@VERSION@/$version/" -e "s/@DATE@/$(date -R -u -d "@$SOURCE_DATE_EPOCH")/" "$source/packaging/debian/changelog.in" > "$source/debian/changelog"
 rm "$source/debian/changelog.in"
+
+if [ "${FABA_ARCH:-}" = arm64 ]; then
+  sysroot=$root/build/arm64/sysroot
+  "$root/tools/arm64_sysroot.sh" "$sysroot"
+  # The libraries are not installed on this machine. Debian's packages have the same names for all processors.
+  export FABA_NATIVE_PACKAGES=$out
+  export FABA_CMAKE="-DCMAKE_TOOLCHAIN_FILE=$source/cmake/arm64.cmake -DFABA_SYSROOT=$sysroot"
+fi
 
 log=$out/build${FABA_ARCH:+-$FABA_ARCH}.log
 echo "Building packages of Faba $version in $out; messages are in $log"

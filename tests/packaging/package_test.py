@@ -18,6 +18,7 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parents[2]
 USER = "visitor"
+NATIVE = subprocess.run(["dpkg", "--print-architecture"], check=True, capture_output=True, text=True).stdout.strip()
 PYTHON = "/usr/bin/python3"
 # State of the package manager, logs and caches: not what a package installs.
 NOT_OF_PACKAGES = re.compile(r"^/(proc|sys|dev|tmp|run|home|root|packages)/|^/var/(lib|cache|log)/")
@@ -42,12 +43,14 @@ class Root:
             raise Skipped("chroot needs root; run this test as root")
         if not shutil.which("debootstrap"):
             raise Skipped("debootstrap not found; `tools/setup.sh package` installs it")
+        if self.arch != NATIVE:
+            emulated = subprocess.run([*self.namespaces(), "/bin/true"], capture_output=True, text=True)
+            if emulated.returncode:
+                raise Skipped(emulated.stderr.strip().removeprefix("SKIPPED: "))
         tar = self.folder.with_suffix(f".{self.arch}.tar")
         shutil.rmtree(self.folder, ignore_errors=True)
         if not tar.exists():
-            done = subprocess.run(["debootstrap", "--variant=minbase", f"--arch={self.arch}", "bookworm", self.folder], capture_output=True, text=True)
-            if done.returncode:
-                raise Skipped(f"debootstrap failed: {(done.stdout + done.stderr).strip().splitlines()[-1]}")
+            self.bootstrap()
             subprocess.run(["tar", "-C", self.folder, "-cf", tar, "."], check=True)
         else:
             self.folder.mkdir(parents=True)
@@ -60,13 +63,30 @@ class Root:
             if re.search(r"Acquire", name.read_text()):
                 shutil.copy(name, self.folder / "etc/apt/apt.conf.d")
 
-    def run(self, command, user=None, cwd="/", check=True, env=None, timeout=600):
+    def bootstrap(self):
+        foreign = [] if self.arch == NATIVE else ["--foreign"]
+        stages = [["debootstrap", "--variant=minbase", f"--arch={self.arch}", *foreign, "bookworm", self.folder]]
+        if foreign:  # container=lxc: no devices are made, which a user namespace does not permit
+            stages.append([*self.namespaces(), "/bin/sh", "-c", f"mount -t proc proc {self.folder}/proc; "
+                           f"exec env container=lxc /usr/sbin/chroot {self.folder} /debootstrap/debootstrap --second-stage"])
+        for words in stages:
+            done = subprocess.run(words, capture_output=True, text=True)
+            if done.returncode:
+                raise Skipped(f"debootstrap failed: {(done.stdout + done.stderr).strip().splitlines()[-1]}")
+
+    def namespaces(self):
+        """The words before a command that give it its own mounts and processes, and for arm64 the emulation."""
+        if self.arch == NATIVE:
+            return ["/usr/bin/unshare", "--mount", "--pid", "--fork", "--kill-child"]
+        return [PYTHON, str(HERE / "tests/packaging/arm64_namespace.py")]
+
+    def run(self, command, user=None, cwd="/", check=True, env=None, timeout=900):
         """Runs a shell command in the root, in a namespace with its own /proc. Returns the finished process."""
         shell = f"cd {cwd} || exit 1; {command}"
         if user:
             shell = f"exec setpriv --reuid={user} --regid={user} --clear-groups -- /bin/sh -c {quoted(shell)}"
-        words = ["/usr/bin/unshare", "--mount", "--pid", "--fork", "--kill-child", "/bin/sh", "-c",
-                 f"/bin/mount -t proc proc {self.folder}/proc; /bin/mount -t tmpfs tmpfs {self.folder}/run; /bin/mount --bind /dev {self.folder}/dev; "
+        words = [*self.namespaces(), "/bin/sh", "-c",
+                 f"/bin/mount -t proc proc {self.folder}/proc; /bin/mount -t tmpfs tmpfs {self.folder}/run; /bin/mount --rbind /dev {self.folder}/dev; "
                  f"exec /usr/sbin/chroot {self.folder} /bin/bash -c {quoted(shell)}"]
         variables = {"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "LC_ALL": "C.UTF-8", "DEBIAN_FRONTEND": "noninteractive", "HOME": f"/home/{user}" if user else "/root"}
         done = subprocess.run(words, capture_output=True, text=True, env=variables if env is None else env, timeout=timeout)
