@@ -3,7 +3,7 @@ SHELL := /bin/bash
 JOBS ?= $(shell nproc)
 SETUP = tools/setup.sh
 
-.PHONY: run lab page python train-example test test-engines test-arm64 test-portability arm64 demo test-demo package test-package setup build bench accuracy reproduce format lint asan tsan dev fuzz docs clean help
+.PHONY: run lab page python train-example test test-engines test-arm64 test-portability arm64 demo test-demo package test-package package-arm64 test-package-arm64 setup build bench accuracy reproduce format lint asan tsan dev fuzz docs clean help
 
 run: build            ## build the program and run scenes/steer.toml: a swarm is steered along a route
 	@build/faba run scenes/steer.toml --seed 1 --force --out runs/steer
@@ -73,6 +73,13 @@ test-package: package ## install the packages in a bare Debian 12 and use them a
 	@/usr/bin/python3 tests/packaging/package_test.py --camera || { code=$$?; [ $$code -eq 77 ] || exit $$code; }
 	@tests/packaging/same_bytes.sh
 
+package-arm64: package ## also cross-build them for arm64
+	@$(SETUP) arm64 python package
+	@FABA_ARCH=arm64 packaging/package.sh
+
+test-package-arm64: package-arm64 ## install those in a bare Debian 12 for arm64, under emulation, and use them there
+	@/usr/bin/python3 tests/packaging/package_test.py --arch arm64 || { code=$$?; [ $$code -eq 77 ] || exit $$code; }
+
 setup:                ## install the packages for building (apt-get; with sudo if not root)
 	@$(SETUP)
 
@@ -140,4 +147,4 @@ clean:                ## delete build/ and build-arm64/; runs/ is kept
 	@rm -rf build build-arm64
 
 help:                 ## list the targets
-	@grep -E '^[a-z0-9 -]+:.*##' Makefile | sed -E 's/:[^#]*## /\t/' | expand -t 14
+	@grep -E '^[a-z0-9 -]+:.*##' Makefile | sed -E 's/:[^#]*## /\t/' | expand -t 20

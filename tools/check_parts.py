@@ -42,7 +42,7 @@ OTHER_MEANINGS = (
     ("groups", "an attribute in Python", "src/python/loop_values.cpp"),
     ("gradient", "a key in Python", "src/python/measures.cpp"),
     ("rig", "an argument in Python", "src/python/measures.cpp"),
-    ("box", "the frame of the arena in JSON", "src/server/live_lab.cpp src/server/recorded_run.cpp web/src/steering.svelte.ts"),
+    ("box", "the frame of the arena in JSON", "src/server/shown/run_news.cpp src/server/recorded_run.cpp web/src/steering.svelte.ts"),
     ("box", "the frame of the picture instead of an edge", "web/src/own/own.ts web/src/own/EdgeStep.svelte web/src/own/StartStep.svelte"),
     ("box", "a shape in a figure", "src/study/plot/plot_layer_data.cpp web/src/results/plot_drawing.ts"),
     ("box", "a value of boundary", "src/study/identify/identify_study.cpp"),

@@ -32,13 +32,13 @@ def stated_versions(root):
 
 
 def program_versions(program):
-    said = subprocess.run([program, "--version"], check=True, capture_output=True, text=True).stdout.split()[1]
+    version = subprocess.run([program, "--version"], check=True, capture_output=True, text=True).stdout.split()[1]
     with tempfile.TemporaryDirectory() as folder:
         run = pathlib.Path(folder) / "run"
         subprocess.run([program, "run", "steer", "--duration", "0.2 s", "--seed", "1", "--out", run, "--quiet"], check=True)
         crate = json.loads((run / "ro-crate-metadata.json").read_text())
     software = next(e for e in crate["@graph"] if e.get("@type") == "SoftwareApplication")
-    return {"faba --version": (said, ""), "ro-crate-metadata.json": (software["version"], "")}
+    return {"faba --version": (version, ""), "ro-crate-metadata.json": (software["version"], "")}
 
 
 def main():
@@ -51,9 +51,9 @@ def main():
         stated |= program_versions(o.program.resolve())
     version, problems = stated["CMakeLists.txt"][0], []
     date = stated["CHANGELOG.md"][1]
-    for where, (said, when) in stated.items():
-        if said != version:
-            problems.append(f"{where} states the version {said}, CMakeLists.txt {version}")
+    for where, (number, when) in stated.items():
+        if number != version:
+            problems.append(f"{where} states the version {number}, CMakeLists.txt {version}")
         if when and when != date:
             problems.append(f"{where} states the date {when}, CHANGELOG.md {date}")
     for problem in problems:

@@ -33,7 +33,7 @@ for what in "$@"; do
     engines) packages+=(python3 slurmctld slurmd slurm-client munge parallel python3-distributed) ;;
     package) packages+=(dpkg-dev debhelper dh-python python3-all lintian pandoc bash-completion man-db debootstrap desktop-file-utils appstream) ;;
     torch) packages+=(python3-torch) ;;
-    arm64) packages+=(doctest-dev python3 g++-aarch64-linux-gnu qemu-user) ;;
+    arm64) packages+=(doctest-dev python3 g++-aarch64-linux-gnu qemu-user qemu-user-static) ;;
     portability) packages+=(doctest-dev python3 clang-16) ;;
     *) echo "setup.sh: \"$what\" is not one of test, bench, lint, docs, fuzz, engines, python, torch, arm64, portability, demo, package" >&2; exit 2 ;;
   esac

@@ -11,7 +11,7 @@
 #include <ctime>
 
 #include "core/error.h"
-#include "core/installation.h"
+#include "core/process/installation.h"
 
 namespace faba::cli {
 namespace {

@@ -83,14 +83,14 @@ Factor named_unit(std::string_view name) {
 }
 
 // A product, because std::pow differs in the last bit between processors.
-double whole_power(double x, int n) {
+double integer_power(double x, int n) {
   double product = 1;
   for (int i = 0; i < std::abs(n); ++i) product *= x;
   return n < 0 ? 1 / product : product;
 }
 
 Factor power(const Factor& f, int n) {
-  Factor r{whole_power(f.factor, n), f.ten * n, {}};
+  Factor r{integer_power(f.factor, n), f.ten * n, {}};
   for (std::size_t i = 0; i < r.dim.exponent.size(); ++i)
     r.dim.exponent[i] = std::int8_t(f.dim.exponent[i] * n);
   return r;

@@ -5,7 +5,7 @@
 #include "app/scenario/rig_file.h"
 #include "app/scenario/scenario_schema.h"
 #include "core/counted.h"
-#include "core/installation.h"
+#include "core/process/installation.h"
 #include "field/allocate.h"
 #include "field/null.h"
 #include "python/convert.h"

@@ -4,7 +4,7 @@
 
 #include "app/run/random_seed.h"
 #include "app/scenario/read_scenario.h"
-#include "core/installation.h"
+#include "core/process/installation.h"
 #include "python/convert.h"
 
 namespace faba::python {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "core/installation.h"
+#include "core/process/installation.h"
 
 using namespace faba;
 

@@ -3,7 +3,7 @@
 
     tests/packaging/package_test.py [--packages build/package] [--root build/package/root] [--arch amd64] [--camera]
 
-The root is made by debootstrap, kept as ROOT.tar for the next call, and unpacked anew each time. --arch arm64 runs its programs by qemu-user, which
+The root is made by debootstrap, kept as ROOT.tar for the next call, and unpacked again for each call. --arch arm64 runs its programs by qemu-user, which
 needs binfmt. --camera also installs faba-camera with its 360 packages. Needs root for chroot. Exit code 77: nothing failed, but checks could not run.
 """
 

@@ -10,10 +10,10 @@
 #include <cstring>
 #include <thread>
 
-#include "core/child.h"
 #include "core/file.h"
-#include "core/installation.h"
 #include "core/monotonic.h"
+#include "core/process/child.h"
+#include "core/process/installation.h"
 #include "rig/bench/bench_socket.h"
 
 namespace faba {

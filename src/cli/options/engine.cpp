@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "core/error.h"
-#include "core/installation.h"
+#include "core/process/installation.h"
 #include "study/engines/engines.h"
 
 namespace faba::cli {

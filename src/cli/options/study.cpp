@@ -8,9 +8,9 @@
 #include <chrono>
 #include <thread>
 
-#include "core/child.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/process/child.h"
 #include "study/engines/engines.h"
 #include "study/pages/provenance_output.h"
 #include "study/sweep/program_version.h"

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <thread>
 
+#include "app/files/installed_parts.h"
 #include "cli/command_line.h"
-#include "cli/installed_parts.h"
 #include "core/toml.h"
 #include "study/sweep/program_version.h"
 

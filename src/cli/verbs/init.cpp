@@ -9,7 +9,7 @@
 #include "cli/command_line.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "core/installation.h"
+#include "core/process/installation.h"
 #include "core/toml.h"
 
 namespace faba::cli {

@@ -10,7 +10,7 @@
 
 #include "cli/command_line.h"
 #include "core/error.h"
-#include "core/installation.h"
+#include "core/process/installation.h"
 #include "core/toml.h"
 #include "server/lab.h"
 

@@ -7,7 +7,7 @@
 #include "cli/command_line.h"
 #include "cli/progress.h"
 #include "cli/recorded_run.h"
-#include "core/child.h"
+#include "core/process/child.h"
 
 namespace faba::cli {
 namespace {

@@ -10,7 +10,7 @@
 #include "cli/options/scene.h"
 #include "cli/progress.h"
 #include "cli/recorded_run.h"
-#include "core/child.h"
+#include "core/process/child.h"
 
 namespace faba::cli {
 namespace {

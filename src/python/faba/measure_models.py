@@ -29,7 +29,7 @@ def calibrate(
 ) -> Measurement:
     """Test whether the intervals of identify contain the truth as often as they state.
 
-    study : Study file (TOML)
+    study : Study file (TOML), or the name of an example
     out : Directory of the study; default: runs/NAME. An incomplete study is resumed
     threads : Number of threads; default: all threads of the machine. Does not change the result
     force : Replace another study in the directory, or write the pages of a complete study again
@@ -71,7 +71,7 @@ def identify(
 ) -> Measurement:
     """Find which model and which parameters explain videos of step responses, and how certain both are.
 
-    study : Study file (TOML)
+    study : Study file (TOML), or the name of an example
     out : Directory of the study; default: runs/NAME. An incomplete study is resumed
     threads : Number of threads; default: all threads of the machine. Does not change the result
     force : Replace another study in the directory, or write the pages of a complete study again

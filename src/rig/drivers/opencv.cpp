@@ -1,7 +1,7 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
-#include "core/installation.h"
+#include "core/process/installation.h"
 #include "rig/capture.h"
 
 namespace faba {

@@ -13,8 +13,8 @@
 #include <cstring>
 #include <utility>
 
-#include "core/child.h"
 #include "core/monotonic.h"
+#include "core/process/child.h"
 #include "core/threads/urgent.h"
 
 namespace faba {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <thread>
 
-#include "core/installation.h"
+#include "core/process/installation.h"
 #include "rig/setup/guard_message.h"
 #include "rig/setup/guard_setup.h"
 

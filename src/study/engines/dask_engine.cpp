@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "core/child.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/process/child.h"
 #include "study/engines/engines.h"
 #include "study/engines/process.h"
 #include "study/sweep/study_directory.h"

@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "core/child.h"
+#include "core/process/child.h"
 #include "core/threads/parallel.h"
 #include "study/engines/engines.h"
 #include "study/engines/process.h"

@@ -9,9 +9,9 @@
 #include <map>
 #include <utility>
 
-#include "core/child.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/process/child.h"
 #include "core/threads/parallel.h"
 #include "study/engines/engines.h"
 #include "study/engines/process.h"

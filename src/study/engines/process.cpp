@@ -12,8 +12,8 @@
 #include <fstream>
 #include <system_error>
 
-#include "core/child.h"
 #include "core/error.h"
+#include "core/process/child.h"
 
 namespace faba {
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <map>
 
-#include "core/child.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/hash.h"
 #include "core/monotonic.h"
+#include "core/process/child.h"
 #include "study/engines/engines.h"
 #include "study/engines/process.h"
 #include "study/engines/slurm_answers.h"

@@ -9,12 +9,7 @@
 namespace faba {
 namespace {
 
-void load() {
-  try {
-    libav::function("avformat_version");
-  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the first use reports it
-  }
-}
+void load() { problem_of_video_libraries(); }  // the first use reports it
 
 std::jthread thread_of_loading() {
   try {
@@ -25,6 +20,15 @@ std::jthread thread_of_loading() {
 }
 
 }  // namespace
+
+std::string problem_of_video_libraries() {
+  try {
+    libav::function("avformat_version");
+    return {};
+  } catch (const Error& e) {
+    return e.reason();
+  }
+}
 
 void load_video_libraries() { static const std::jthread loading = thread_of_loading(); }
 

@@ -9,8 +9,8 @@
 #include "cli/command_line.h"
 #include "cli/options/bench.h"
 #include "cli/progress.h"
-#include "core/child.h"
 #include "core/error.h"
+#include "core/process/child.h"
 #include "study/pages/run_report.h"
 #include "study/plot/markup.h"
 

@@ -1,4 +1,4 @@
-#include "core/installation.h"
+#include "core/process/installation.h"
 
 #include <algorithm>
 #include <array>

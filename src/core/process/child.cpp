@@ -1,4 +1,4 @@
-#include "core/child.h"
+#include "core/process/child.h"
 
 #include <signal.h>
 #include <sys/wait.h>

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-namespace faba::cli {
+namespace faba {
 
 /// Something that the program needs for some of its tasks, on this machine.
 struct InstalledPart {
@@ -15,4 +15,4 @@ struct InstalledPart {
 /// Guard, camera module, FFmpeg, examples, serial boards, cameras, and programs of other projects.
 std::vector<InstalledPart> installed_parts();
 
-}  // namespace faba::cli
+}  // namespace faba

@@ -1,4 +1,4 @@
-#include "cli/installed_parts.h"
+#include "app/files/installed_parts.h"
 
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -8,11 +8,10 @@
 #include <filesystem>
 #include <sstream>
 
-#include "core/error.h"
-#include "core/installation.h"
-#include "vision/files/ffmpeg.h"
+#include "core/process/installation.h"
+#include "vision/files/video_libraries.h"
 
-namespace faba::cli {
+namespace faba {
 namespace {
 
 namespace fs = std::filesystem;
@@ -39,12 +38,9 @@ InstalledPart camera_module() {
 }
 
 InstalledPart ffmpeg() {
-  try {
-    libav::function("avformat_open_input");
-    return {"FFmpeg", true, true, "its libraries are loaded"};
-  } catch (const Error& e) {
-    return {"FFmpeg", false, true, "videos cannot be read or written: " + e.reason()};
-  }
+  const std::string problem = problem_of_video_libraries();
+  return {"FFmpeg", problem.empty(), true,
+          problem.empty() ? "its libraries are loaded" : "videos cannot be read or written: " + problem};
 }
 
 InstalledPart examples() {
@@ -107,4 +103,4 @@ std::vector<InstalledPart> installed_parts() {
           other_program("parallel", "parallel", "studies with --engine parallel")};
 }
 
-}  // namespace faba::cli
+}  // namespace faba
