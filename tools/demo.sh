@@ -14,4 +14,13 @@ unset NODE_PATH NODE_OPTIONS
 tools/page.sh install
 (cd web && npx vite build --config vite.demo.config.ts --outDir ../build/demo --emptyOutDir --logLevel warn)
 cp web/public/icon.svg LICENSE build/demo/
-echo "build/demo: $(cat build/demo/* | gzip -9 | wc -c | awk '{ printf "%.0f kB", $1 / 1000 }') compressed; open build/demo/index.html"
+# The licences of the libraries in the page. That of Boost requires no copy with compiled code.
+for library in libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libeigen3-dev libnanoflann-dev emscripten; do
+  printf '\n===== %s =====\n\n' "$library"
+  cat "/usr/share/doc/$library/copyright"
+done > build/demo/LICENSES.txt
+for library in svelte uplot; do
+  printf '\n===== %s =====\n\n' "$library"
+  cat web/node_modules/$library/LICENSE*
+done >> build/demo/LICENSES.txt
+echo "build/demo: the page loads $(cat build/demo/{index.html,demo.js,demo.css,icon.svg} | gzip -9 | wc -c | awk '{ printf "%.0f kB", $1 / 1000 }') compressed; open build/demo/index.html"

@@ -84,8 +84,8 @@ async function place(page, x, y) {
 
 const folder = pathToFileURL(join(demo, 'index.html')).href;
 
-await step(`the files have less than ${kMostBytes / 1e6} MB, compressed`, async () => {
-  const bytes = readdirSync(demo).reduce((sum, name) => sum + gzipSync(readFileSync(join(demo, name))).length, 0);
+await step(`the page loads less than ${kMostBytes / 1e6} MB, compressed`, async () => {
+  const bytes = readdirSync(demo).filter((name) => !name.startsWith('LICENSE')).reduce((sum, name) => sum + gzipSync(readFileSync(join(demo, name))).length, 0);
   console.log(`   ${(bytes / 1000).toFixed(0)} kB`);
   assert.ok(bytes < kMostBytes, `${bytes} bytes`);
 });
@@ -151,8 +151,8 @@ await step('the messages of the engine are those of the program', async () => {
 });
 
 await step('1000 cells: at least real time, drawing included', async () => {
-  // The engine needs less than 1 ms for a frame of 1000 cells, which lasts 16.7 ms: a factor above 10 is expected. The page must
-  // be able to follow: factor 1 is the least that it promises.
+  // A frame of 1000 cells lasts 16.7 ms and takes the engine 1 to 3 ms. At a speed of 32 the engine and the drawing use all of the
+  // machine, so that the measured factor is the largest; the page promises that it is at least 1.
   const toml = readFileSync(join(root, 'scenes/steer.toml'), 'utf8').replace('count = 400', 'count = 1000').replace('duration = "12 s"', 'duration = "10 min"');
   await load(page, toml, 'thousand.toml');
   await page.waitForFunction(() => /\b1000$/.test(document.querySelector('[data-read="responding"]')?.textContent ?? ''));

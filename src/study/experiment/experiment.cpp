@@ -7,8 +7,8 @@
 #include <set>
 
 #include "core/error.h"
-#include "core/table_list.h"
 #include "core/units.h"
+#include "study/data/table_list.h"
 
 namespace faba {
 namespace {

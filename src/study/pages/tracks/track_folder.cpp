@@ -12,8 +12,8 @@
 #include "core/json_input.h"
 #include "core/schema.h"
 #include "core/table.h"
-#include "core/table_list.h"
 #include "study/data/sha256.h"
+#include "study/data/table_list.h"
 #include "study/pages/tracks/track_json.h"
 #include "study/pages/tracks/track_output.h"
 
