@@ -35,7 +35,7 @@ MAY = {
 # Subfolders and the sibling subfolders that each may include; "." is the folder itself. In folders that are not listed,
 # all subfolders may include each other.
 WITHIN = {
-    "core": {".": "kernels random", "kernels": ". random", "random": ".", "threads": ".", "h5": ". threads"},
+    "core": {".": "kernels random", "kernels": ". random", "random": ".", "threads": ".", "h5": ". threads", "process": "."},
     "vision": {
         "image": "",
         "files": "image",

@@ -15,13 +15,13 @@ std::filesystem::path program_file(const std::string& name);
 void set_program_folder(const std::filesystem::path& folder);
 
 /// The folder that holds the examples, scenes/, rigs/ and studies/: PREFIX/share/faba, or the root of the
-/// source tree. Empty if there is none.
+/// source tree. Empty if neither has them.
 std::filesystem::path examples_folder();
 
 /// The file that a user names on a command line. The name of an example, without folder and extension, is
 /// that example: "steer" with the folder "scenes" is scenes/steer.toml of examples_folder(), unless there is
-/// a file "steer". If an example was named by its path, but is not in the current folder, throws Error(usage)
-/// with the advice; other missing files are reported by whoever opens them.
+/// a file "steer". Throws Error(usage) with the advice if there is neither, and if an example is named by its
+/// path, but is not in the current folder; the function that opens the file reports other missing files.
 std::filesystem::path file_or_example(const std::filesystem::path& named, const std::string& folder);
 
 }  // namespace faba
