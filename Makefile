@@ -3,7 +3,7 @@ SHELL := /bin/bash
 JOBS ?= $(shell nproc)
 SETUP = tools/setup.sh
 
-.PHONY: run lab page python train-example test test-engines test-arm64 test-portability arm64 demo test-demo package test-package package-arm64 test-package-arm64 setup build bench accuracy reproduce format lint asan tsan dev fuzz docs clean help
+.PHONY: run lab page python train-example test test-engines test-arm64 test-portability arm64 demo test-demo package test-package test-reproducible package-arm64 test-package-arm64 setup build bench accuracy reproduce format lint asan tsan dev fuzz docs clean help
 
 run: build            ## build the program and run scenes/steer.toml: a swarm is steered along a route
 	@build/faba run scenes/steer.toml --seed 1 --force --out runs/steer
@@ -69,8 +69,10 @@ package: setup        ## build the Debian packages faba and faba-camera: build/p
 	@$(SETUP) python package
 	@packaging/package.sh
 
-test-package: package ## install the packages in a bare Debian 12 and use them as an unprivileged user; build them twice and compare
+test-package: package ## install the packages in a bare Debian 12 and use them there as an unprivileged user
 	@/usr/bin/python3 tests/packaging/package_test.py --camera || { code=$$?; [ $$code -eq 77 ] || exit $$code; }
+
+test-reproducible: package ## build the packages a second time, in another folder, and compare the bytes
 	@tests/packaging/same_bytes.sh
 
 package-arm64: package ## also cross-build them for arm64

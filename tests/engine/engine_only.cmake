@@ -18,6 +18,8 @@ foreach(group ${groups})
   target_sources(tests_${group} PRIVATE engine/program_parts.cpp)
 endforeach()
 
+# The longest test starts first.
+set_tests_properties(contract.controllers PROPERTIES COST 1000)
 # Under emulation the comparison on rendered pictures takes tens of minutes; ctest lists the test with it as disabled, and
 # runs the others of its file.
 if(CMAKE_CROSSCOMPILING)

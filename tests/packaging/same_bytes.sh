@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Builds the packages a second time, in another folder and without the compiler cache, and compares their bytes.
+# Builds the packages a second time, in another folder and without the compiler cache, and compares their bytes with those
+# in build/package. Takes as long as the first build.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/../.." && pwd)
 again=$(mktemp -d "${TMPDIR:-/tmp}/faba-again-XXXXXX")
