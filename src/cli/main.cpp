@@ -12,6 +12,7 @@
 
 #include "cli/command_line.h"
 #include "cli/usage_message.h"
+#include "core/process/installation.h"
 #include "core/schema.h"
 #include "core/toml.h"
 
@@ -27,6 +28,12 @@ void print_error(const Error& e, bool json) {
     fmt::print("{}\n",
                Json{{"error", {{"code", int(e.code())}, {"where", e.where()}, {"what", e.reason()}}}}.dump(
                    -1, ' ', false, Json::error_handler_t::replace));
+}
+
+// A file that is not found may be an example that was named in another way.
+Error with_example_advice(const Error& e) {
+  if (e.reason() != "file not found; check the name") return e;  // of read_toml()
+  return Error(e.code(), e.where(), e.reason() + example_advice(e.where()));
 }
 
 // The message of CLI11 would be that a verb is missing.
@@ -103,7 +110,7 @@ int main(int argc, char** argv) {
       throw faba::Error(faba::Errc::internal, "standard output", "cannot be written");
     return code;
   } catch (const faba::Error& e) {
-    faba::cli::print_error(e, json);
+    faba::cli::print_error(faba::cli::with_example_advice(e), json);
     return int(e.code());
   } catch (const std::bad_alloc&) {
     faba::cli::print_error("out of memory; reduce the number of cells, the arena or the duration");

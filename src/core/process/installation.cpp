@@ -31,14 +31,6 @@ bool holds_examples(const fs::path& folder) {
   return fs::is_directory(folder / "scenes", ec) && fs::is_directory(folder / "rigs", ec);
 }
 
-std::vector<std::string> names_in(const fs::path& folder) {
-  std::vector<std::string> names;
-  std::error_code ec;
-  for (const auto& e : fs::directory_iterator(folder, ec)) names.push_back(e.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
 }  // namespace
 
 fs::path program_file(const std::string& name) {
@@ -64,21 +56,27 @@ fs::path examples_folder() {
 
 fs::path file_or_example(const fs::path& named, const std::string& folder) {
   std::error_code ec;
-  if (named.empty() || named.is_absolute() || fs::exists(named, ec)) return named;
+  if (named.empty() || named.has_parent_path() || named.has_extension() || fs::exists(named, ec))
+    return named;
+  const fs::path example = examples_folder() / folder / (named.string() + ".toml");
+  return fs::is_regular_file(example, ec) ? example : named;
+}
+
+std::string example_advice(const fs::path& missing) {
   const fs::path examples = examples_folder();
-  if (examples.empty()) return named;
-  if (!named.has_parent_path() && !named.has_extension()) {
-    const fs::path example = examples / folder / (named.string() + ".toml");
-    if (fs::is_regular_file(example, ec)) return example;
-    throw Error(
-        Errc::usage, named.string(),
-        "no file and no example has this name" + suggestion(named.string(), names_in(examples / folder)));
-  }
-  if (named.parent_path() == folder && fs::is_regular_file(examples / named, ec))
-    throw Error(Errc::usage, named.string(),
-                "file not found; the example of this name is `" + named.stem().string() +
-                    "`, and `faba init` copies all examples into the current folder");
-  return named;
+  if (examples.empty() || missing.is_absolute()) return {};
+  std::error_code ec;
+  if (missing.has_parent_path())
+    return fs::is_regular_file(examples / missing, ec)
+               ? "; the example of this name is `" + missing.stem().string() +
+                     "`, and `faba init` copies all examples into the current folder"
+               : "";
+  std::vector<std::string> names;
+  for (const char* folder : {"scenes", "rigs", "studies"})
+    for (const auto& e : fs::directory_iterator(examples / folder, ec))
+      names.push_back(e.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return missing.has_extension() ? "" : "; no example has this name" + suggestion(missing.string(), names);
 }
 
 }  // namespace faba

@@ -20,8 +20,11 @@ std::filesystem::path examples_folder();
 
 /// The file that a user names on a command line. The name of an example, without folder and extension, is
 /// that example: "steer" with the folder "scenes" is scenes/steer.toml of examples_folder(), unless there is
-/// a file "steer". Throws Error(usage) with the advice if there is neither, and if an example is named by its
-/// path, but is not in the current folder; the function that opens the file reports other missing files.
+/// a file "steer".
 std::filesystem::path file_or_example(const std::filesystem::path& named, const std::string& folder);
+
+/// How to name an example, to be added to the message that the file `missing` is not found; empty if there is
+/// no example like it.
+std::string example_advice(const std::filesystem::path& missing);
 
 }  // namespace faba

@@ -17,8 +17,6 @@ export const system: Record<string, string> = {
   // core/process, cli: examples
   'cannot create this folder: {}': 'não é possível criar esta pasta: {}',
   'exists and differs from the example; choose another folder, or replace it with --force': 'existe e difere do exemplo; escolha outra pasta ou substitua-o com --force',
-  'file not found; the example of this name is `{}`, and `faba init` copies all examples into the current folder': 'arquivo não encontrado; o exemplo com este nome é `{}`, e `faba init` copia todos os exemplos para a pasta atual',
-  'no file and no example has this name{}': 'nenhum arquivo e nenhum exemplo tem este nome{}',
   'not found beside this program; install Faba again, or copy the folders scenes, rigs and studies of its source': 'não encontrados junto a este programa; instale o Faba novamente ou copie as pastas scenes, rigs e studies do seu código-fonte',
   'the file is incomplete, delete it': 'o arquivo está incompleto, exclua-o',
   // Operating system
