@@ -74,7 +74,7 @@ class Installed(unittest.TestCase):
             (self.prefix / "libexec/faba/away").rename(self.prefix / "libexec/faba/faba-coil-guard")
 
     def test_examples_by_name_and_as_copies(self):
-        self.faba("field", "at", "helmholtz", "--help")
+        self.faba("field", "map", "helmholtz", "--current", "1,0", "--check")
         message = self.faba("run", "steeer", code=2).stderr
         self.assertIn("steer", message.split("steeer", 1)[1])
         message = self.faba("run", "scenes/steer.toml", code=2).stderr
