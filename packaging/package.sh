@@ -2,7 +2,7 @@
 # Builds the Debian packages of Faba in a clean copy of the source: build/package/*.deb, with the bits of `make run`.
 #   packaging/package.sh [OUT]      OUT: folder of the packages; default: build/package
 # With FABA_ARCH=arm64 it cross-builds those for arm64, after those of this machine.
-# Two calls from one commit give the same bytes: the time in all files is that of the commit.
+# The time in all files is that of the commit, so that a second call can give the same bytes (tests/packaging/same_bytes.sh).
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 out=${1:-$root/build/package}
