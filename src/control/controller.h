@@ -35,6 +35,8 @@ class Reference {
   virtual std::vector<Vec2> setpoints() const = 0;
   /// Distance within which a setpoint counts as reached, px; empty when the reference does not use one.
   virtual std::optional<double> tolerance_px() const { return std::nullopt; }
+  /// Fraction of its path that the swarm has followed, 0 to 1; empty when the reference has no path.
+  virtual std::optional<double> path_done() const { return std::nullopt; }
 };
 
 /// Feedback law. It receives an estimate and a target only and has no access to the simulator, a clock or a

@@ -42,12 +42,15 @@ TEST_CASE("path: the setpoint is the look-ahead distance ahead of the nearest po
     CHECK(t.finished == finished);
   };
   check({50, 150}, {100, 100});  // the start, until the swarm comes near
+  CHECK(r->path_done() == 0);
   check({95, 110}, {120, 100});
   check({110, 105}, {130, 100});
   check({104, 100}, {130, 100});  // further back: the setpoint stays
+  CHECK(*r->path_done() == doctest::Approx(0.05));
   check({290, 100}, {190, 100});  // only three look-ahead distances are searched
   check({290, 100}, {250, 100});
   check({290, 100}, {300, 100}, true);
+  CHECK(r->path_done() == 1);
 }
 
 TEST_CASE("path: a curve that crosses itself is followed in its order") {

@@ -203,6 +203,7 @@ Manifest BenchSession::describe() const {
   all.out = dir();
   all.setpoints = setpoint_count(*m.controls->reference);
   all.setpoint_tolerance_px = m.controls->reference->tolerance_px();
+  all.path_done = m.controls->reference->path_done();
   all.video_shows = "camera";
   all.distance_source = "estimated";
   all.notes = m.notes;

@@ -27,9 +27,7 @@ Json swarms_json(const std::vector<Manifest::Swarm>& swarms) {
   return all;
 }
 
-Json tolerance_json(const Manifest& m) {
-  return m.setpoint_tolerance_px ? Json(*m.setpoint_tolerance_px) : Json();
-}
+Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
 void add_simulated(Json& j, const Manifest& m) {
   const Manifest::Simulated& s = *m.simulated;
@@ -43,7 +41,8 @@ void add_simulated(Json& j, const Manifest& m) {
             {"cells", s.cells},
             {"swarms", swarms_json(s.swarms)},
             {"setpoints", m.setpoints},
-            {"setpoint_tolerance_px", tolerance_json(m)},
+            {"setpoint_tolerance_px", or_null(m.setpoint_tolerance_px)},
+            {"path_done", or_null(m.path_done)},
             {"video_shows", m.video_shows},
             {"distance_source", m.distance_source},
             {"notes", m.notes}});
@@ -57,7 +56,8 @@ void add_bench(Json& j, const Manifest& m) {
             {"wall_time_s", m.wall_time_s},
             {"notes", m.notes},
             {"setpoints", m.setpoints},
-            {"setpoint_tolerance_px", tolerance_json(m)},
+            {"setpoint_tolerance_px", or_null(m.setpoint_tolerance_px)},
+            {"path_done", or_null(m.path_done)},
             {"video_shows", m.video_shows},
             {"distance_source", m.distance_source},
             {"frames_dropped", b.frames_dropped},

@@ -35,9 +35,10 @@ struct Manifest {
   std::filesystem::path out;  ///< run directory, as given
   std::size_t setpoints = 0;  ///< number of setpoints of the reference, reached or not
   std::optional<double>
-      setpoint_tolerance_px;    ///< distance at which the reference counts a setpoint as reached
-  std::string video_shows;      ///< "camera" or "drawing"
-  std::string distance_source;  ///< "true" or "estimated": of distance_px in series.csv
+      setpoint_tolerance_px;        ///< distance at which the reference counts a setpoint as reached
+  std::optional<double> path_done;  ///< fraction of the path of the reference that the swarm has followed
+  std::string video_shows;          ///< "camera" or "drawing"
+  std::string distance_source;      ///< "true" or "estimated": of distance_px in series.csv
   std::vector<std::string> notes;
 
   /// A simulated swarm.

@@ -125,6 +125,7 @@ Manifest Session::manifest() const {
   m.out = dir();
   m.setpoints = setpoint_count(simulation_->reference());
   m.setpoint_tolerance_px = simulation_->reference().tolerance_px();
+  m.path_done = simulation_->reference().path_done();
   m.video_shows = scenario_.record.as_seen ? "camera" : "drawing";
   m.distance_source = "true";
   m.notes = notes_;

@@ -92,6 +92,7 @@ RunInfo run_info(const Json& json, const std::string& source) {
   info.wall_time_s = keys.number("wall_time_s");
   info.setpoints = keys.number("setpoints");
   info.setpoint_tolerance_px = keys.number("setpoint_tolerance_px");
+  info.path_done = keys.number("path_done");
   info.um_per_px = keys.number("um_per_px");
   if (info.um_per_px && !(*info.um_per_px > 0)) keys.fail("um_per_px", "greater than 0");
   info.um_per_px_source = keys.text("um_per_px_source");
@@ -152,6 +153,7 @@ RunInfo run_info(const Manifest& m) {
     info.wall_time_s = m.wall_time_s;
     info.setpoints = double(m.setpoints);
     info.setpoint_tolerance_px = m.setpoint_tolerance_px;
+    info.path_done = m.path_done;
     info.notes = m.notes;
   }
   if (m.simulated) {

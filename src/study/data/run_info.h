@@ -32,6 +32,7 @@ struct RunInfo {
   std::optional<double> duration_s, wall_time_s;
   std::optional<double> setpoints;              ///< number of setpoints of the scenario
   std::optional<double> setpoint_tolerance_px;  ///< distance within which a setpoint counts as reached
+  std::optional<double> path_done;              ///< followed fraction of the path of the reference, 0 to 1
   std::optional<Vec2> view_px;                  ///< width and height of the frames
   std::optional<ArenaOutline> arena;
   std::vector<std::string> notes;          ///< notes on doubtful settings
@@ -45,7 +46,7 @@ RunInfo run_info(const Manifest& m);
 /// Reads a manifest: a JSON object with `version` and optionally `seed, threads, state_hash, scenario_hash,
 /// video_shows, duration_s, um_per_px, um_per_px_source, nominal_um_per_px, title, wall_time_s, view_px = [w,
 /// h], arena = {type, centre_px, radius_px | size_px}, polarity, swarms = [{count, ...}], setpoints,
-/// setpoint_tolerance_px, notes = [..]`. null counts as missing; unknown keys are ignored. Throws
+/// setpoint_tolerance_px, path_done, notes = [..]`. null counts as missing; unknown keys are ignored. Throws
 /// Error(Errc::input) with file and key when the file is missing or not JSON, and for a value of the wrong
 /// type.
 RunInfo read_run_info(const std::filesystem::path& path);

@@ -90,6 +90,15 @@ std::string settling_text(const std::string& goal, bool single, const Metrics& m
   return text + ".";
 }
 
+/// Empty for a reference without a path.
+std::string path_text(const RunInfo& info) {
+  if (!info.path_done) return "";
+  if (*info.path_done >= 1) return "The swarm followed its path to the end. ";
+  // Not rounded up to the whole path.
+  return fmt::format("The run ended when the swarm had followed {:.0f} % of its path. ",
+                     std::floor(100 * *info.path_done));
+}
+
 std::string outcome_text(const Metrics& m, const RunInfo& info) {
   const std::size_t given = std::max(m.setpoints, m.given_setpoints);
   if (info.open_loop) {
@@ -98,7 +107,8 @@ std::string outcome_text(const Metrics& m, const RunInfo& info) {
                        given > 1 ? fmt::format("setpoint {}", m.setpoints) : "the setpoint",
                        length_text(*m.final_distance_px, info));
   }
-  if (given > Metrics::kMaxRouteSetpoints) return settling_text("its moving setpoint", false, m, info);
+  if (given > Metrics::kMaxRouteSetpoints)
+    return path_text(info) + settling_text("its moving setpoint", false, m, info);
   if (given <= 1) return settling_text("its setpoint", true, m, info);
   const std::string reached = reached_text(m, given, info);
   if (m.route_unfinished()) {

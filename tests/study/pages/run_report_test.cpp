@@ -321,7 +321,13 @@ TEST_CASE("run report: the summary of a run with a route or a moving setpoint") 
     m.setpoints = 900;
     m.settling_time_s = 3;
     m.steady_rms_px = 9;
-    CHECK(has(run_summary(m, info).outcome, "its moving setpoint"));
+    CHECK(run_summary(m, info).outcome.starts_with("The swarm settled at its moving setpoint"));
+    info.path_done = 0.997;
+    CHECK(
+        run_summary(m, info).outcome.starts_with("The run ended when the swarm had followed 99 % of its "
+                                                 "path. The swarm settled at its moving setpoint"));
+    info.path_done = 1;
+    CHECK(run_summary(m, info).outcome.starts_with("The swarm followed its path to the end. "));
   }
 }
 
