@@ -3,7 +3,7 @@ SHELL := /bin/bash
 JOBS ?= $(shell nproc)
 SETUP = tools/setup.sh
 
-.PHONY: run lab page python train-example test test-engines test-arm64 test-portability arm64 demo test-demo package test-package test-reproducible package-arm64 test-package-arm64 setup build bench accuracy reproduce format lint asan tsan dev fuzz docs clean help
+.PHONY: run lab page python train-example test test-long test-engines test-arm64 test-portability arm64 demo test-demo package test-package test-reproducible package-arm64 test-package-arm64 setup build bench accuracy reproduce format lint asan tsan dev fuzz docs clean help
 
 run: build            ## build the program and run scenes/steer.toml: a swarm is steered along a route
 	@build/faba run scenes/steer.toml --seed 1 --force --out runs/steer
@@ -11,11 +11,19 @@ run: build            ## build the program and run scenes/steer.toml: a swarm is
 lab: build            ## open the live lab in a browser: watch, steer and record a swarm
 	@build/faba lab $(SCENE)
 
-test:                 ## build and run all tests
+CTEST = ctest --no-tests=error --output-on-failure
+test:                 ## build and run the tests, without those of test-long
 	@$(SETUP) test python
 	@cmake --preset release --log-level=WARNING > /dev/null
 	@cmake --build build -j $(JOBS)
-	@ctest --test-dir build --no-tests=error --output-on-failure -j $(JOBS)
+	@# Some of these tests wait for most of their time: one more than processors.
+	@$(CTEST) --test-dir build --label-exclude long -j $$(($(JOBS) + 1))
+
+test-long:            ## build, and run the tests in a browser and those that compute or control a bench for a minute
+	@$(SETUP) test python
+	@cmake --preset release --log-level=WARNING > /dev/null
+	@cmake --build build -j $(JOBS)
+	@$(CTEST) --test-dir build --label-regex long -j $(JOBS)
 
 test-engines: build   ## install Slurm, Dask and GNU parallel, and test studies on each, also with workers, nodes and the command killed
 	@$(SETUP) engines
@@ -35,13 +43,13 @@ test-arm64:           ## cross-build the engine for arm64 and run its tests unde
 	@$(SETUP) arm64
 	@cmake --preset engine-arm64 --log-level=WARNING > /dev/null
 	@cmake --build build/engine-arm64 -j $(JOBS)
-	@ctest --test-dir build/engine-arm64 --no-tests=error --output-on-failure -j $(JOBS)
+	@$(CTEST) --test-dir build/engine-arm64 -j $(JOBS) $(CTEST_OPTIONS)
 
 test-portability:     ## run the same tests on this machine with unsigned char, as on arm64, and compiled by clang
 	@$(SETUP) portability
 	@for leg in engine-unsigned-char engine-clang; do \
 	  cmake --preset $$leg --log-level=WARNING > /dev/null && cmake --build build/$$leg -j $(JOBS) && \
-	  ctest --test-dir build/$$leg --no-tests=error --output-on-failure -j $(JOBS) || exit 1; done
+	  $(CTEST) --test-dir build/$$leg -j $(JOBS) || exit 1; done
 
 # Exit code 77 of arm64_sysroot.sh: no package can be downloaded.
 arm64: build          ## cross-build the program and the Python package for arm64 in build/arm64/, run them under emulation and compare with build/faba
@@ -50,7 +58,7 @@ arm64: build          ## cross-build the program and the Python package for arm6
 	  echo "make arm64: SKIPPED; the reason is above"; exit 0; }; \
 	cmake --preset arm64 --log-level=WARNING > /dev/null && \
 	cmake --build build/arm64 -j $(JOBS) --target faba python tests_core tests_vision tests_rig && \
-	ctest --test-dir build/arm64 --no-tests=error --output-on-failure -j $(JOBS) -R '^(core|vision|rig)\.|^e2e\.arm64$$'
+	$(CTEST) --test-dir build/arm64 -j $(JOBS) -R '^(core|vision|rig)\.|^e2e\.arm64$$'
 
 python:               ## build the Python package: build/python/faba; use it with PYTHONPATH=build/python /usr/bin/python3
 	@$(SETUP) python

@@ -28,4 +28,5 @@ if(CMAKE_CROSSCOMPILING)
   # Those that compute for many minutes start first. ctest would stop a test after 25 minutes.
   set_tests_properties(physics.dipole physics.trap control.mixture control.rotating_hold contract.controllers
                        PROPERTIES COST 1000 TIMEOUT 5400)
+  set_property(TEST physics.dipole physics.trap APPEND PROPERTY LABELS long)
 endif()
