@@ -14,6 +14,8 @@
 namespace faba {
 namespace {
 
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
 /// Steers two swarms of different polarity or speed to a setpoint each (theory F3). Both circle in a rotating
 /// field and drift by a constant bias that the coils make different at the two swarms,
 ///   u_i = q_i (v_i / 2) B_dc(p_i) / B_rot, turned by phi*_i,
@@ -43,8 +45,9 @@ class Mixture final : public TwoSwarmController {
     return (1 + Rotation::kLargestBias) * rotation_.strength() + norm(ambient());
   }
   std::vector<std::string> notes(std::span<const Vec2> setpoints) const override;
+  std::array<double, 2> distances() const override { return distance_; }
   void archive(Archive& a) override {
-    a& rotation_& resolved_& second_target_;
+    a& rotation_& resolved_& second_target_& distance_[0] & distance_[1];
     for (Followed& f : followed_) a& f;
   }
 
@@ -93,6 +96,7 @@ class Mixture final : public TwoSwarmController {
   bool resolved_ = false;      ///< both swarms have been seen as two groups
   Vec2 second_target_;
   std::array<Followed, 2> followed_;
+  std::array<double, 2> distance_ = {kNone, kNone};  ///< m, of distances()
 };
 
 constexpr double kMixtureStrength = 3e-4;  // T
@@ -335,6 +339,7 @@ Command Mixture::update(const Estimate& e, const Target& target, double dt) {
   std::erase_if(groups, [](const Group& g) { return !std::isfinite(norm(g.centroid)); });
   const bool predicted = groups.empty() && e.predicted;
   follow(groups, e.centroid, predicted ? 0 : c_.delay_frames * c_.frame_period, dt);
+  distance_ = {norm(target.position - followed_[0].centre), norm(second_target_ - followed_[1].centre)};
 
   const Patterns p = patterns({followed_[0].centre, followed_[1].centre});
   const Pair drift = drifts({target.position, second_target_}, p.used == 4);

@@ -1,4 +1,7 @@
 #pragma once
+#include <array>
+#include <cmath>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +16,18 @@ class TwoSwarmController : public Controller {
   /// What it cannot do with its field, for the setpoints of the first swarm (m, world); a run prints these
   /// texts at its start.
   virtual std::vector<std::string> notes(std::span<const Vec2> setpoints) const = 0;
+  /// Distances of the first and the second swarm from their setpoints at the last update, m, as it follows
+  /// them; NaN before the first update and without a setpoint.
+  virtual std::array<double, 2> distances() const = 0;
 };
+
+/// The same in px; empty for a controller of one swarm, and where a distance is not known.
+inline std::optional<std::array<double, 2>> two_swarm_distances_px(const Controller& c, double m_per_px) {
+  const auto* two = dynamic_cast<const TwoSwarmController*>(&c);
+  if (two == nullptr) return std::nullopt;
+  const auto [first, second] = two->distances();
+  if (!std::isfinite(first) || !std::isfinite(second)) return std::nullopt;
+  return {{first / m_per_px, second / m_per_px}};
+}
 
 }  // namespace faba

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "app/run/notes.h"
+#include "control/two_swarms.h"
 #include "tests/swarm.h"
 
 using namespace faba;
@@ -82,6 +83,12 @@ TEST_CASE("mixture: two swarms of opposite polarity reach their two setpoints be
     TestSwarm t(scene({.field = kEight, .controller = "second_px = [400, 340]"}), seed);
     const Pair end = after(t, 60 * 30, 64);
     const double first = norm(end[0] - Vec2{250, 230}), second = norm(end[1] - Vec2{400, 340});
+    // The run reports what the controller followed: the centres of the circles, of which the averages are the
+    // means.
+    const auto reported = two_swarm_distances_px(t.simulation.controller(), t.scenario.si_scale().m_per_px);
+    REQUIRE(reported);
+    CHECK(std::abs((*reported)[0] - first) < kBand);
+    CHECK(std::abs((*reported)[1] - second) < kBand);
     MESSAGE("seed ", seed, ": ", first, " px, ", second, " px");
     if (first < kBand && second < kBand) ++reached;
     worst = std::max({worst, first, second});

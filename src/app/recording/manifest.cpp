@@ -118,6 +118,7 @@ Json manifest_json(const Manifest& m) {
             {"out", m.out.string()}};
   if (m.nominal_um_per_px) j["nominal_um_per_px"] = *m.nominal_um_per_px;
   if (m.recorded_s) j["recorded_s"] = {m.recorded_s->x, m.recorded_s->y};
+  if (m.two_swarm_distances_px) j["two_swarm_distances_px"] = *m.two_swarm_distances_px;
   if (m.simulated) add_simulated(j, m);
   if (m.bench) add_bench(j, m);
   return j;

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -37,8 +38,10 @@ struct Manifest {
   std::optional<double>
       setpoint_tolerance_px;        ///< distance at which the reference counts a setpoint as reached
   std::optional<double> path_done;  ///< fraction of the path of the reference that the swarm has followed
-  std::string video_shows;          ///< "camera" or "drawing"
-  std::string distance_source;      ///< "true" or "estimated": of distance_px in series.csv
+  /// Distances of two swarms with a setpoint each at the end, px, as their controller follows them.
+  std::optional<std::array<double, 2>> two_swarm_distances_px;
+  std::string video_shows;      ///< "camera" or "drawing"
+  std::string distance_source;  ///< "true" or "estimated": of distance_px in series.csv
   std::vector<std::string> notes;
 
   /// A simulated swarm.

@@ -7,6 +7,7 @@
 #include "app/recording/checkpoint.h"
 #include "app/run/notes.h"
 #include "control/setpoint_count.h"
+#include "control/two_swarms.h"
 #include "core/file.h"
 #include "vision/files/video_libraries.h"
 
@@ -126,6 +127,7 @@ Manifest Session::manifest() const {
   m.setpoints = setpoint_count(simulation_->reference());
   m.setpoint_tolerance_px = simulation_->reference().tolerance_px();
   m.path_done = simulation_->reference().path_done();
+  m.two_swarm_distances_px = two_swarm_distances_px(simulation_->controller(), scenario_.si_scale().m_per_px);
   m.video_shows = scenario_.record.as_seen ? "camera" : "drawing";
   m.distance_source = "true";
   m.notes = notes_;

@@ -93,6 +93,7 @@ RunInfo run_info(const Json& json, const std::string& source) {
   info.setpoints = keys.number("setpoints");
   info.setpoint_tolerance_px = keys.number("setpoint_tolerance_px");
   info.path_done = keys.number("path_done");
+  if (const auto both = keys.pair("two_swarm_distances_px")) info.two_swarm_distances_px = {both->x, both->y};
   info.um_per_px = keys.number("um_per_px");
   if (info.um_per_px && !(*info.um_per_px > 0)) keys.fail("um_per_px", "greater than 0");
   info.um_per_px_source = keys.text("um_per_px_source");
@@ -154,6 +155,7 @@ RunInfo run_info(const Manifest& m) {
     info.setpoints = double(m.setpoints);
     info.setpoint_tolerance_px = m.setpoint_tolerance_px;
     info.path_done = m.path_done;
+    info.two_swarm_distances_px = m.two_swarm_distances_px;
     info.notes = m.notes;
   }
   if (m.simulated) {

@@ -1,6 +1,7 @@
 #include "study/pages/run_report.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string_view>
@@ -94,12 +95,23 @@ std::string settling_text(const std::string& goal, bool single, const Metrics& m
 std::string path_text(const RunInfo& info) {
   if (!info.path_done) return "";
   if (*info.path_done >= 1) return "The swarm followed its path to the end. ";
-  // Not rounded up to the whole path.
+  // Rounded down: only a path that was followed to its end has 100 %.
   return fmt::format("The run ended when the swarm had followed {:.0f} % of its path. ",
                      std::floor(100 * *info.path_done));
 }
 
+std::string two_swarms_text(const std::array<double, 2>& distance_px, const Metrics& m, const RunInfo& info) {
+  return fmt::format(
+      "The controller steers two swarms to a setpoint each. At the end of the run ({}) the first was {} and "
+      "the "
+      "second {} from its setpoint, as the controller followed them. The other figures are those of the mean "
+      "of "
+      "all cells and the setpoint of the first swarm; they do not show whether the swarms are controlled.",
+      seconds(run_duration(m, info)), length_text(distance_px[0], info), length_text(distance_px[1], info));
+}
+
 std::string outcome_text(const Metrics& m, const RunInfo& info) {
+  if (info.two_swarm_distances_px) return two_swarms_text(*info.two_swarm_distances_px, m, info);
   const std::size_t given = std::max(m.setpoints, m.given_setpoints);
   if (info.open_loop) {
     return fmt::format("The controller does not use the {}; distance to {} at the end: {}.",
@@ -156,7 +168,13 @@ std::string in_um(double px, const RunInfo& info, const char* otherwise) {
   return info.um_per_px ? three_digits(px * *info.um_per_px) + "\u00A0µm" : std::string(otherwise);
 }
 
-std::string cards(const Metrics& m, const RunInfo& info) {
+std::string two_swarm_cards(const std::array<double, 2>& distance_px) {
+  const char* detail = "from its setpoint, last frame";
+  return card("First swarm", three_digits(distance_px[0]) + "\u00A0px", detail) +
+         card("Second swarm", three_digits(distance_px[1]) + "\u00A0px", detail);
+}
+
+std::string error_cards(const Metrics& m, const RunInfo& info) {
   std::string out;
   if (m.initial_error_px) {
     out += card("Settling time", m.settling_time_s ? seconds(*m.settling_time_s) : "not settled",
@@ -166,6 +184,12 @@ std::string cards(const Metrics& m, const RunInfo& info) {
     out += card("Steady-state error, rms", three_digits(*m.steady_rms_px) + "\u00A0px",
                 in_um(*m.steady_rms_px, info, "last third"));
   }
+  return out;
+}
+
+std::string cards(const Metrics& m, const RunInfo& info) {
+  std::string out =
+      info.two_swarm_distances_px ? two_swarm_cards(*info.two_swarm_distances_px) : error_cards(m, info);
   if (m.cross_track_rms_px) {
     out += card("Cross-track error, rms", three_digits(*m.cross_track_rms_px) + "\u00A0px",
                 in_um(*m.cross_track_rms_px, info, "from the second setpoint"));

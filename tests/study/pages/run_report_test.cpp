@@ -329,6 +329,14 @@ TEST_CASE("run report: the summary of a run with a route or a moving setpoint") 
     info.path_done = 1;
     CHECK(run_summary(m, info).outcome.starts_with("The swarm followed its path to the end. "));
   }
+  SUBCASE("two swarms with a setpoint each") {
+    info.two_swarm_distances_px = {3, 40};
+    const std::string text = run_summary(m, info).outcome;
+    CHECK(has(text,
+              "the first was 3.00\u00A0px (1.50\u00A0µm) and the second 40.0\u00A0px (20.0\u00A0µm) from its "
+              "setpoint"));
+    CHECK_FALSE(has(text, "settle"));
+  }
 }
 
 TEST_CASE(
