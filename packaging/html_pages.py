@@ -18,6 +18,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 PROJECT_PAGES = ("README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md", "web/protocol.md")
 PICTURES = {".svg", ".png", ".jpg", ".gif"}
+# Their commands are those of the source folder; other pages call the installed program.
+SOURCE_PAGES = {"install.md", "arm64.md", "add-a-model.md", "add-a-controller.md", "add-an-estimator.md", "add-a-coil.md", "add-a-verb.md"}
 COPIED = PICTURES | {".html", ".bib", ".csv"}
 
 TEMPLATE = """<!DOCTYPE html>
@@ -29,7 +31,7 @@ TEMPLATE = """<!DOCTYPE html>
 <link rel="stylesheet" href="$root$style.css">
 </head>
 <body>
-<nav><a href="$root$index.html">Faba documentation</a></nav>
+<nav><a href="$root$index.html">Faba documentation</a>: run the commands of these pages in a folder that <code>faba init</code> has made. Commands with <code>make</code> need the source of Faba.</nav>
 <main>
 $body$
 </main>
@@ -87,6 +89,13 @@ class Documentation:
             self.problems.append(f"{page}: {target} does not exist")
         return None
 
+    def of_installed(self, page):
+        """The text of a page, with the installed program instead of that of the source folder."""
+        text = (self.root / page).read_text()
+        if page.parts[0] != "docs" or page.name in SOURCE_PAGES:
+            return text
+        return re.sub(r"(?<![\w/.])(\.\./|\./)?build/faba(?![\w-])", "faba", text)
+
     def with_links(self, page, text):
         def replaced(match):
             target = self.link(page, match[3])
@@ -96,7 +105,7 @@ class Documentation:
         return "".join(part if i % 2 else re.sub(r"(!?)\[((?:[^\[\]]|\[[^\[\]]*\])*)\]\(([^()\s]+)\)", replaced, part) for i, part in enumerate(parts))
 
     def write(self, page):
-        text = github_math(self.with_links(page, (self.root / page).read_text()))
+        text = github_math(self.with_links(page, self.of_installed(page)))
         title = next((line[2:] for line in text.split("\n") if line.startswith("# ")), page.stem)
         target = self.out / target_of(page)
         target.parent.mkdir(parents=True, exist_ok=True)

@@ -30,10 +30,26 @@ void print_error(const Error& e, bool json) {
                    -1, ' ', false, Json::error_handler_t::replace));
 }
 
-// A file that is not found may be an example that was named in another way.
+// A file that is not found may be an example that was named in another way, or a video that a study of the
+// examples needs.
 Error with_example_advice(const Error& e) {
-  if (e.reason() != "file not found; check the name") return e;  // of read_toml()
-  return Error(e.code(), e.where(), e.reason() + example_advice(e.where()));
+  if (e.reason() == "file not found; check the name")  // of read_toml()
+    return Error(e.code(), e.where(), e.reason() + example_advice(e.where()));
+  const std::string examples = (examples_folder() / "studies").string();
+  if (e.where().starts_with(examples) && e.reason().starts_with("file not found: "))
+    return Error(e.code(), e.where(),
+                 e.reason() +
+                     "; record it first: the comment at the top of the study states the command. In an "
+                     "installed Faba, do both in a folder that `faba init` has made");
+  return e;
+}
+
+std::string help_footer() {
+  std::string text = "Options of a command: faba COMMAND --help\nFirst run: faba run steer";
+  const std::filesystem::path pages = examples_folder() / "docs" / "index.html";
+  std::error_code ec;
+  if (std::filesystem::exists(pages, ec)) text += "\nManual: man faba, " + pages.string();
+  return text;
 }
 
 // The message of CLI11 would be that a verb is missing.
@@ -76,7 +92,7 @@ int dispatch(int argc, char** argv) {
   app.require_subcommand(1);
   app.group("Commands");  // heading of the list of commands, also in the help of all commands
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
-  app.footer("Options of a command: faba COMMAND --help\nFirst run: faba run steer");
+  app.footer(help_footer());
   CommandLine line;
   add_verbs(app, line);
 

@@ -15,6 +15,8 @@ constexpr void require(bool holds) {
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 
@@ -235,6 +237,8 @@ Document read_toml(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::string text(kMaxBytes + 1, '\0');
   in.read(text.data(), std::streamsize(text.size()));
+  if (!in.is_open())
+    throw Error(Errc::usage, file.string(), std::string("cannot be read: ") + std::strerror(errno));
   if (in.bad() || (in.fail() && !in.eof())) throw Error(Errc::usage, file.string(), "cannot be read");
   text.resize(std::size_t(in.gcount()));
   return parse_toml(text, file.string());

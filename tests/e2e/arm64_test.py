@@ -105,7 +105,7 @@ class Arm64(unittest.TestCase):
 
     def test_a_simulated_bench_runs(self):
         out = self.path / "bench"
-        small = {"camera.rate": "4 Hz", "swarm[0].count": "30", "arena.view_px": "[128, 96]", "arena.radius_px": "40",
+        small = {"camera.rate": "2 Hz", "swarm[0].count": "30", "arena.view_px": "[128, 96]", "arena.radius_px": "40",
                  "arena.centre_px": "[64, 48]", "swarm[0].start": "{type = 'disc', centre_px = [46, 48], radius_px = 6}",
                  "reference.setpoint_px": "[80, 48]"}  # the emulator is slow
         changes = [word for key, value in small.items() for word in ("--set", f"{key}={value}")]
@@ -121,7 +121,7 @@ class Arm64(unittest.TestCase):
             rows = list(csv.DictReader(file))
         distances = [float(row["distance_px"]) for row in rows]
         print(f"bench: {len(rows)} frames, distance {distances[0]:.0f} px at the start, {distances[-1]:.0f} px at the end", flush=True)
-        self.assertGreater(len(rows), 20)
+        self.assertGreater(len(rows), 15)
 
     def test_the_python_module(self):
         module = HERE.program.parent / "python"

@@ -77,6 +77,11 @@ class Installed(unittest.TestCase):
         self.faba("field", "map", "helmholtz", "--current", "1,0", "--check")
         message = self.faba("run", "steeer", code=2).stderr
         self.assertIn("steer", message.split("steeer", 1)[1])
+        message = self.faba("identify", "steer", code=2).stderr
+        self.assertIn("is a scenario, which this command does not take", message)
+        self.assertNotIn("did you mean", message)
+        message = self.faba("identify", "step-response", code=3).stderr
+        self.assertIn("record it first", message)
         message = self.faba("run", "scenes/steer.toml", code=2).stderr
         self.assertIn("faba init", message)
         self.faba("init")

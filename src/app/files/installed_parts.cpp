@@ -33,7 +33,8 @@ InstalledPart camera_module() {
     return {"camera module", true, false, file.string()};
   }
   return {"camera module", false, false,
-          fmt::format("cannot be loaded ({}): cameras cannot be opened; install the package faba-camera",
+          fmt::format("cannot be loaded ({}): cameras cannot be opened; install the package faba-camera, "
+                      "which is built together with that of faba (`make package`)",
                       dlerror())};
 }
 

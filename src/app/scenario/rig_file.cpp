@@ -63,8 +63,8 @@ void include_rig(Document& scenario, const Parts& parts) {
   if (!field.contains("file")) return;
   // `file` of any other field type is a different file, such as a measured map.
   const std::vector<std::string> systems = parts.field.names_with(Trait::coil_system);
-  if (field.contains("type") && std::find(systems.begin(), systems.end(), field["type"]) == systems.end())
-    return;
+  const auto is_type = [&field](const std::string& name) { return field["type"] == name; };
+  if (field.contains("type") && std::none_of(systems.begin(), systems.end(), is_type)) return;
   const Node node = Node(scenario).child("field").child("file");
   if (!field["file"].is_string()) node.fail("expected a string: the name of a coil system file");
   const std::string named = field["file"].get<std::string>();

@@ -56,6 +56,10 @@ int lab(const LabVerb& v, const Common& c) {
       fmt::print("{}\n", Json{{"address", address}}.dump());
     else
       fmt::print("{}\n", address);
+    if (!c.quiet && ::access(".", W_OK) != 0)
+      print_stderr(
+          "faba: note: the current folder cannot be written: nothing can be recorded or saved; start the lab "
+          "in another folder");
     if (!c.json && !c.quiet)
       fmt::print("The live lab is running, for this machine only; press Ctrl-C to stop it.\n");
     if (std::fflush(stdout) != 0) throw Error(Errc::internal, "standard output", "cannot be written");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -71,12 +72,18 @@ std::string example_advice(const fs::path& missing) {
                ? "; the example of this name is `" + missing.stem().string() +
                      "`, and `faba init` copies all examples into the current folder"
                : "";
+  if (missing.has_extension()) return "";
   std::vector<std::string> names;
-  for (const char* folder : {"scenes", "rigs", "studies"})
+  for (const auto& [folder, content] :
+       {std::pair{"scenes", "a scenario"}, {"rigs", "a coil system"}, {"studies", "a study"}}) {
     for (const auto& e : fs::directory_iterator(examples / folder, ec))
       names.push_back(e.path().stem().string());
+    if (std::find(names.begin(), names.end(), missing.string()) != names.end())
+      return std::string("; the example of this name is ") + content + ", which this command does not take";
+  }
   std::sort(names.begin(), names.end());
-  return missing.has_extension() ? "" : "; no example has this name" + suggestion(missing.string(), names);
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return "; no example has this name" + suggestion(missing.string(), names);
 }
 
 }  // namespace faba

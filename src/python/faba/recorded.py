@@ -82,8 +82,10 @@ class Run:
         try:
             import xarray
         except ImportError:
-            import h5py
-
+            try:
+                import h5py
+            except ImportError as missing:
+                raise ImportError("tracks.h5 is read by xarray or h5py; install python3-h5netcdf and python3-xarray, or python3-h5py") from missing
             return h5py.File(file, "r")
         try:
             return xarray.open_dataset(file, engine="h5netcdf")

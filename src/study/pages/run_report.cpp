@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -108,6 +109,30 @@ std::string two_swarms_text(const std::array<double, 2>& distance_px, const Metr
       "of "
       "all cells and the setpoint of the first swarm; they do not show whether the swarms are controlled.",
       seconds(run_duration(m, info)), length_text(distance_px[0], info), length_text(distance_px[1], info));
+}
+
+/// Root-mean-square distance from the centre of points that fill the arena evenly, px.
+double even_rms_radius_px(const ArenaOutline& arena) {
+  if (arena.radius_px) return *arena.radius_px / std::sqrt(2.0);
+  return arena.size_px ? norm(*arena.size_px) / std::sqrt(12.0) : std::numeric_limits<double>::infinity();
+}
+
+/// Of a swarm that was compact and has filled its arena: the distance of its mean to the setpoint does not
+/// show it.
+std::string dispersed_text(const Metrics& m, const RunInfo& info) {
+  if (!info.arena || !m.initial_rms_radius_px || !m.rms_radius_px) return "";
+  constexpr double kCompact = 0.5, kFilled = 0.75;  // of a swarm that fills the arena evenly; assumed
+  const double even = even_rms_radius_px(*info.arena);
+  if (*m.initial_rms_radius_px > kCompact * even || *m.rms_radius_px < kFilled * even) return "";
+  std::string text = fmt::format(
+      " Only the mean of the cells was controlled: they dispersed over the {} (rms radius {} at the start, "
+      "{} at the end",
+      info.arena->radius_px ? "drop" : "arena", length_text(*m.initial_rms_radius_px, info),
+      length_text(*m.rms_radius_px, info));
+  if (m.visible_at_end && m.most_visible && *m.visible_at_end < 0.9 * *m.most_visible)
+    text += fmt::format("; {:.0f} of {:.0f} cells were out of view at the end",
+                        *m.most_visible - *m.visible_at_end, *m.most_visible);
+  return text + ").";
 }
 
 std::string outcome_text(const Metrics& m, const RunInfo& info) {
@@ -337,7 +362,7 @@ RunSummary run_summary(const Metrics& m, const RunInfo& info) {
   if (m.frames == 0) return {"No frame was recorded.", ""};
   RunSummary summary;
   if (m.frames == 1) return {"Only one frame was recorded, the start of the run.", ""};
-  summary.outcome = m.initial_error_px ? outcome_text(m, info)
+  summary.outcome = m.initial_error_px ? outcome_text(m, info) + dispersed_text(m, info)
                                        : fmt::format("The swarm had no setpoint and was recorded for {}.",
                                                      seconds(run_duration(m, info)));
   if (m.route_unfinished())

@@ -224,6 +224,11 @@ Metrics control_metrics(const Series& series, std::optional<double> tolerance_px
   m.sigma_x_px = finite(swarm.sigma_x.back());
   m.sigma_y_px = finite(swarm.sigma_y.back());
   m.rms_radius_px = finite(swarm.rms_radius.back());
+  m.initial_rms_radius_px = finite(swarm.rms_radius.front());
+  if (const Values visible = series.find("visible_count"); !visible.empty()) {
+    m.visible_at_end = finite(visible.back());
+    m.most_visible = finite(*std::max_element(visible.begin(), visible.end()));
+  }
   measure_command(m, series, t);
   return m;
 }

@@ -69,6 +69,9 @@ struct Metrics {
   /// Standard deviations of the cell positions along x and y, and their root-mean-square distance from the
   /// centroid, at the last frame, px, as recorded.
   std::optional<double> sigma_x_px, sigma_y_px, rms_radius_px;
+  std::optional<double> initial_rms_radius_px;  ///< the last of these at the first frame
+  /// Number of cells in view at the last frame, and the largest number in a frame, as recorded.
+  std::optional<double> visible_at_end, most_visible;
 
   /// Sum over the coils of the integral of I^2 dt, A^2 s; multiplied by the coil resistance it is the heat in
   /// joule. A current is constant from its frame to the next; the last frame is not counted.

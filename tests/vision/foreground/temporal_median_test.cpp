@@ -11,7 +11,7 @@ using namespace faba;
 TEST_CASE("temporal medians are those of each pixel's list, for any number of frames and pixels") {
   std::mt19937 random(3);
   std::uniform_int_distribution<int> grey(0, 40);  // with equal values
-  for (const std::size_t count : {1, 2, 3, 5, 8, 23, 40, 41}) {
+  for (const std::size_t count : {1u, 2u, 3u, 5u, 8u, 23u, 40u, 41u}) {
     std::vector<GrayF> frames(count, GrayF(37, 3));
     for (GrayF& frame : frames)
       for (float& v : frame.px) v = 0.25F * float(grey(random));
