@@ -17,9 +17,9 @@ namespace faba::cli {
 namespace {
 
 // One cell has no dispersion.
-void print_metrics(const Metrics& m, bool steered, bool several_cells) {
+void print_metrics(const Metrics& m, bool several_cells) {
   const auto px = [](const std::optional<double>& v) { return v ? three_digits(*v) : std::string("-"); };
-  if (m.setpoints > 0 && steered)
+  if (m.setpoints > 0)
     fmt::print("settling time{}, steady-state error {} px rms, ",
                m.settling_time_s ? " " + three_digits(*m.settling_time_s) + " s" : ": not settled",
                px(m.steady_rms_px));
@@ -36,7 +36,7 @@ void print_run_summary(const Session& session, const Manifest& manifest, const M
   const RunSummary summary = run_summary(m, run_info(manifest));
   fmt::print("{}\n", summary.outcome);
   if (m.frames > 1 && !manifest.two_swarm_distances_px)
-    print_metrics(m, !manifest.open_loop, manifest.simulated->cells > 1);
+    print_metrics(m, manifest.simulated->cells > 1);
   if (!summary.setpoint.empty()) fmt::print("{}\n", summary.setpoint);
   const std::pair<const char*, const char*> files[] = {{"video", "video.mp4"},
                                                        {"lossless", "video.avi"},

@@ -83,7 +83,7 @@ TEST_CASE("run summary: a run with one setpoint") {
     CHECK_FALSE(has(run_summary(m, info).outcome, "dispersed"));
     m.rms_radius_px = 160;
     CHECK(has(run_summary(m, info).outcome,
-              "Only the mean of the cells was controlled: they dispersed over the drop (rms radius "
+              "Only the mean of the cells was controlled: they dispersed over the arena (rms radius "
               "20.0\u00A0px (10.0\u00A0µm) "
               "at the start, 160\u00A0px (80.0\u00A0µm) at the end)."));
     m.most_visible = 200;

@@ -17,7 +17,7 @@ namespace {
 // A running sum waits for its last addition, so the sums of several rows are computed at the same time.
 constexpr int kRows = 16;
 
-using Four = Wide<float, 16>::type;
+using Four = float __attribute__((vector_size(16)));
 
 struct Square {
   Four row[4];
@@ -32,7 +32,13 @@ struct Square {
            __builtin_shufflevector(c, d, 0, 1, 4, 5), __builtin_shufflevector(c, d, 2, 3, 6, 7)}};
 }
 
-Four& four(float* at) { return *reinterpret_cast<Four*>(at); }
+// Pixels have no alignment beyond that of a float; compilers make one instruction of each copy.
+Four four(const float* at) {
+  Four v;
+  std::memcpy(&v, at, sizeof v);
+  return v;
+}
+void put(const Four& v, float* at) { std::memcpy(at, &v, sizeof v); }
 
 using Rows = std::array<float*, kRows>;
 
@@ -57,7 +63,7 @@ void rows_to_columns(const Rows& rows, int width, float* columns) {
         Square s;
         for (int i = 0; i < 4; ++i) s.row[i] = four(rows[std::size_t(row) + std::size_t(i)] + col);
         s = transposed(s);
-        for (int i = 0; i < 4; ++i) four(columns + place(row, col + i)) = s.row[i];
+        for (int i = 0; i < 4; ++i) put(s.row[i], columns + place(row, col + i));
       },
       [&](int col) {
         for (int row = 0; row < kRows; ++row) columns[place(row, col)] = rows[std::size_t(row)][col];
@@ -71,7 +77,7 @@ void columns_to_rows(float* columns, int width, const Rows& rows) {
         Square s;
         for (int i = 0; i < 4; ++i) s.row[i] = four(columns + place(row, col + i));
         s = transposed(s);
-        for (int i = 0; i < 4; ++i) four(rows[std::size_t(row) + std::size_t(i)] + col) = s.row[i];
+        for (int i = 0; i < 4; ++i) put(s.row[i], rows[std::size_t(row) + std::size_t(i)] + col);
       },
       [&](int col) {
         for (int row = 0; row < kRows; ++row) rows[std::size_t(row)][col] = columns[place(row, col)];
