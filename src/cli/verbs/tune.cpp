@@ -163,7 +163,7 @@ void add_tune(CLI::App& app, CommandLine& line) {
   v->add_option("--held-out", o->held_out,
                 "Trials of the comparison with other seeds at the end; default: 20")
       ->check(integers(2, 10000));
-  add_study_run_options(v, o->study, "runs/tune-SCENE");
+  add_study_run_options(v, o->study, "runs/tune-SCENE, or runs/tune-SCENE-CONTROLLER with --controller");
   v->callback([o, &line] { line.code = tune_verb(*o, line.common); });
 }
 
