@@ -103,11 +103,8 @@ std::string path_text(const RunInfo& info) {
 
 std::string two_swarms_text(const std::array<double, 2>& distance_px, const Metrics& m, const RunInfo& info) {
   return fmt::format(
-      "The controller steers two swarms to a setpoint each. At the end of the run ({}) the first was {} and "
-      "the "
-      "second {} from its setpoint, as the controller followed them. The other figures are those of the mean "
-      "of "
-      "all cells and the setpoint of the first swarm; they do not show whether the swarms are controlled.",
+      "The controller steers two swarms to a setpoint each. At the end of the run ({}) the first was {} "
+      "and the second {} from its setpoint, as the controller followed them.",
       seconds(run_duration(m, info)), length_text(distance_px[0], info), length_text(distance_px[1], info));
 }
 
@@ -120,6 +117,7 @@ double even_rms_radius_px(const ArenaOutline& arena) {
 /// Of a swarm that was compact and has filled its arena: the distance of its mean to the setpoint does not
 /// show it.
 std::string dispersed_text(const Metrics& m, const RunInfo& info) {
+  if (info.open_loop || info.two_swarm_distances_px) return "";
   if (!info.arena || !m.initial_rms_radius_px || !m.rms_radius_px) return "";
   constexpr double kCompact = 0.5, kFilled = 0.75;  // of a swarm that fills the arena evenly; assumed
   const double even = even_rms_radius_px(*info.arena);
@@ -365,7 +363,11 @@ RunSummary run_summary(const Metrics& m, const RunInfo& info) {
   summary.outcome = m.initial_error_px ? outcome_text(m, info) + dispersed_text(m, info)
                                        : fmt::format("The swarm had no setpoint and was recorded for {}.",
                                                      seconds(run_duration(m, info)));
-  if (m.route_unfinished())
+  if (info.two_swarm_distances_px)
+    summary.setpoint =
+        "The other figures are those of the mean of all cells and the setpoint of the first swarm; "
+        "they do not show whether the swarms are controlled.";
+  else if (m.route_unfinished())
     summary.setpoint =
         fmt::format("The steady-state error refers to setpoint {} of {}: the run ended before the last one.",
                     m.setpoints, m.given_setpoints);

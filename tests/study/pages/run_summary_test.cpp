@@ -89,6 +89,9 @@ TEST_CASE("run summary: a run with one setpoint") {
     m.most_visible = 200;
     m.visible_at_end = 73;
     CHECK(has(run_summary(m, info).outcome, "; 127 of 200 cells were out of view at the end)."));
+    info.open_loop = true;  // it was not controlled
+    CHECK_FALSE(has(run_summary(m, info).outcome, "dispersed"));
+    info.open_loop = false;
     m.initial_rms_radius_px = 110;  // it was dispersed from the start
     CHECK_FALSE(has(run_summary(m, info).outcome, "dispersed"));
   }
