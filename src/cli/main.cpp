@@ -30,20 +30,6 @@ void print_error(const Error& e, bool json) {
                    -1, ' ', false, Json::error_handler_t::replace));
 }
 
-// A file that is not found may be an example that was named in another way, or a video that a study of the
-// examples needs.
-Error with_example_advice(const Error& e) {
-  if (e.reason() == "file not found; check the name")  // of read_toml()
-    return Error(e.code(), e.where(), e.reason() + example_advice(e.where()));
-  const std::string examples = (examples_folder() / "studies").string();
-  if (e.where().starts_with(examples) && e.reason().starts_with("file not found: "))
-    return Error(e.code(), e.where(),
-                 e.reason() +
-                     "; record it first: the comment at the top of the study states the command. In an "
-                     "installed Faba, do both in a folder that `faba init` has made");
-  return e;
-}
-
 std::string help_footer() {
   std::string text = "Options of a command: faba COMMAND --help\nFirst run: faba run steer";
   const std::filesystem::path pages = examples_folder() / "docs" / "index.html";
@@ -126,7 +112,7 @@ int main(int argc, char** argv) {
       throw faba::Error(faba::Errc::internal, "standard output", "cannot be written");
     return code;
   } catch (const faba::Error& e) {
-    faba::cli::print_error(faba::cli::with_example_advice(e), json);
+    faba::cli::print_error({e.code(), e.where(), e.reason() + faba::example_advice(e)}, json);
     return int(e.code());
   } catch (const std::bad_alloc&) {
     faba::cli::print_error("out of memory; reduce the number of cells, the arena or the duration");

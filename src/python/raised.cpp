@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/monotonic.h"
+#include "core/process/installation.h"
 
 namespace faba::python {
 namespace {
@@ -97,7 +98,7 @@ void bind_error(py::module_& m) {
     try {
       if (p) std::rethrow_exception(p);
     } catch (const Error& e) {
-      raise(e);
+      raise({e.code(), e.where(), e.reason() + example_advice(e)});
     }
   });
 }

@@ -63,7 +63,9 @@ fs::path file_or_example(const fs::path& named, const std::string& folder) {
   return fs::is_regular_file(example, ec) ? example : named;
 }
 
-std::string example_advice(const fs::path& missing) {
+namespace {
+
+std::string advice_for_name(const fs::path& missing) {
   const fs::path examples = examples_folder();
   if (examples.empty() || missing.is_absolute()) return {};
   std::error_code ec;
@@ -84,6 +86,18 @@ std::string example_advice(const fs::path& missing) {
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return "; no example has this name" + suggestion(missing.string(), names);
+}
+
+}  // namespace
+
+std::string example_advice(const Error& e) {
+  if (e.reason() == "file not found; check the name") return advice_for_name(e.where());  // of read_toml()
+  if (!e.reason().starts_with("file not found: ")) return "";
+  const bool of_example = e.where().starts_with((examples_folder() / "studies").string());
+  return of_example
+             ? "; record it first: the comment at the top of the study states the command. In an installed "
+               "Faba, do both in a folder that `faba init` has made"
+             : "";
 }
 
 }  // namespace faba

@@ -2,6 +2,8 @@
 #include <filesystem>
 #include <string>
 
+#include "core/error.h"
+
 namespace faba {
 
 /// Path of one of Faba's programs and modules: "faba", "faba-coil-guard", "faba-capture.so". In a build
@@ -23,8 +25,8 @@ std::filesystem::path examples_folder();
 /// a file "steer".
 std::filesystem::path file_or_example(const std::filesystem::path& named, const std::string& folder);
 
-/// How to name an example, to be added to the message that the file `missing` is not found; empty if there is
-/// no example like it.
-std::string example_advice(const std::filesystem::path& missing);
+/// Advice to be added to the message of an error: a file that was not found may be an example that was named
+/// in another way, or the video that a study of the examples needs. Empty for other errors.
+std::string example_advice(const Error& e);
 
 }  // namespace faba
