@@ -35,8 +35,7 @@ void print_run_summary(const Session& session, const Manifest& manifest, const M
   const auto& dir = session.dir();
   const RunSummary summary = run_summary(m, run_info(manifest));
   fmt::print("{}\n", summary.outcome);
-  if (m.frames > 1 && !manifest.two_swarm_distances_px)
-    print_metrics(m, manifest.simulated->cells > 1);
+  if (m.frames > 1 && !manifest.two_swarm_distances_px) print_metrics(m, manifest.simulated->cells > 1);
   if (!summary.setpoint.empty()) fmt::print("{}\n", summary.setpoint);
   const std::pair<const char*, const char*> files[] = {{"video", "video.mp4"},
                                                        {"lossless", "video.avi"},

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t kCopyBlock = 8192, kSitesAtOnce = 1024;
 
-// One for all worlds that this thread steps: its bitmaps are empty between two calls, and those of many worlds
-// would not fit into the caches together.
+// One for all worlds that this thread steps: its bitmaps are empty between two calls, and those of many
+// worlds would not fit into the caches together.
 TwoPhase& two_phase(const Grid& grid) {
   thread_local TwoPhase shared{Grid{}};
   shared.use(grid);

@@ -12,8 +12,8 @@
 #include "core/file.h"
 #include "core/monotonic.h"
 #include "core/portable_math.h"
-#include "core/units.h"
 #include "core/threads/urgent.h"
+#include "core/units.h"
 #include "vision/files/video_reader.h"
 
 namespace faba {

@@ -16,12 +16,12 @@ struct CoilDesignOptions {
   double width = 0.13, height = 0.13;  ///< of the rectangle about the centre, m
   int columns = 33, rows = 33;         ///< of the grid of the field
   std::vector<Plane> planes = {Plane::top};
-  bool fast = false;        ///< search zeros from fewer points: some may be missing
-  Vec3 probe = {};          ///< m
-  Vec2 target = {};         ///< where the swarm is held, m
-  int polarity = 1;         ///< of the cells: +1 north-seeking, -1 south-seeking
-  double sample = 1e-3;     ///< radius of the sample, m
-  SwarmMotion cell = {};    ///< of a typical cell
+  bool fast = false;      ///< search zeros from fewer points: some may be missing
+  Vec3 probe = {};        ///< m
+  Vec2 target = {};       ///< where the swarm is held, m
+  int polarity = 1;       ///< of the cells: +1 north-seeking, -1 south-seeking
+  double sample = 1e-3;   ///< radius of the sample, m
+  SwarmMotion cell = {};  ///< of a typical cell
 };
 
 /// Whether a coil system can hold a swarm at a position, by a controller or by a zero of the field (theory
