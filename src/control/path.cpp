@@ -30,7 +30,10 @@ class ReferencePath final : public Reference {
   ReferencePath(const Params& p, const ControlContext& c);
   Target update(const Estimate& e) override;
   std::vector<Vec2> setpoints() const override;
-  std::optional<double> path_done() const override { return finished_ ? 1 : progress_ / curve_.length(); }
+  std::optional<double> path_done() const override {
+    if (finished_) return 1;
+    return curve_.length() > 0 ? progress_ / curve_.length() : 0;
+  }
   void archive(Archive& a) override { a& progress_& started_& finished_; }
 
  private:

@@ -235,10 +235,10 @@ Document read_toml(const std::filesystem::path& file) {
   if (std::filesystem::is_regular_file(file, ec) && std::filesystem::file_size(file, ec) > kMaxBytes)
     throw Error(Errc::usage, file.string(), "is larger than the maximum of 4 MiB");
   std::ifstream in(file, std::ios::binary);
-  std::string text(kMaxBytes + 1, '\0');
-  in.read(text.data(), std::streamsize(text.size()));
   if (!in.is_open())
     throw Error(Errc::usage, file.string(), std::string("cannot be read: ") + std::strerror(errno));
+  std::string text(kMaxBytes + 1, '\0');
+  in.read(text.data(), std::streamsize(text.size()));
   if (in.bad() || (in.fail() && !in.eof())) throw Error(Errc::usage, file.string(), "cannot be read");
   text.resize(std::size_t(in.gcount()));
   return parse_toml(text, file.string());

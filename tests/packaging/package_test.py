@@ -21,7 +21,7 @@ USER = "visitor"
 NATIVE = subprocess.run(["dpkg", "--print-architecture"], check=True, capture_output=True, text=True).stdout.strip()
 PYTHON = "/usr/bin/python3"
 # Small pictures at two frames per second, which an emulator can render in time.
-SLOW_BENCH = ("--duration '10 s' --set 'camera.rate=2 Hz' --set 'swarm[0].count=30' --set 'arena.view_px=[128, 96]' --set arena.radius_px=40 "
+SLOW_BENCH = ("--duration '12 s' --set 'camera.rate=2 Hz' --set 'swarm[0].count=30' --set 'arena.view_px=[128, 96]' --set arena.radius_px=40 "
               "--set 'arena.centre_px=[64, 48]' --set 'swarm[0].start={type = \"disc\", centre_px = [46, 48], radius_px = 6}' --set 'reference.setpoint_px=[80, 48]'")
 # State of the package manager, logs and caches: not what a package installs.
 NOT_OF_PACKAGES = re.compile(r"^/(proc|sys|dev|tmp|run|home|root|packages)/|^/var/(lib|cache|log)/")

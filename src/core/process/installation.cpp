@@ -32,6 +32,29 @@ bool holds_examples(const fs::path& folder) {
   return fs::is_directory(folder / "scenes", ec) && fs::is_directory(folder / "rigs", ec);
 }
 
+std::string advice_for_name(const fs::path& missing) {
+  const fs::path examples = examples_folder();
+  if (examples.empty() || missing.is_absolute()) return {};
+  std::error_code ec;
+  if (missing.has_parent_path())
+    return fs::is_regular_file(examples / missing, ec)
+               ? "; the example of this name is `" + missing.stem().string() +
+                     "`, and `faba init` copies all examples into the current folder"
+               : "";
+  if (missing.has_extension()) return "";
+  std::vector<std::string> names;
+  for (const auto& [folder, content] :
+       {std::pair{"scenes", "a scenario"}, {"rigs", "a coil system"}, {"studies", "a study"}}) {
+    for (const auto& e : fs::directory_iterator(examples / folder, ec))
+      names.push_back(e.path().stem().string());
+    if (std::find(names.begin(), names.end(), missing.string()) != names.end())
+      return std::string("; the example of this name is ") + content + ", which this command does not take";
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return "; no example has this name" + suggestion(missing.string(), names);
+}
+
 }  // namespace
 
 fs::path program_file(const std::string& name) {
@@ -63,37 +86,11 @@ fs::path file_or_example(const fs::path& named, const std::string& folder) {
   return fs::is_regular_file(example, ec) ? example : named;
 }
 
-namespace {
-
-std::string advice_for_name(const fs::path& missing) {
-  const fs::path examples = examples_folder();
-  if (examples.empty() || missing.is_absolute()) return {};
-  std::error_code ec;
-  if (missing.has_parent_path())
-    return fs::is_regular_file(examples / missing, ec)
-               ? "; the example of this name is `" + missing.stem().string() +
-                     "`, and `faba init` copies all examples into the current folder"
-               : "";
-  if (missing.has_extension()) return "";
-  std::vector<std::string> names;
-  for (const auto& [folder, content] :
-       {std::pair{"scenes", "a scenario"}, {"rigs", "a coil system"}, {"studies", "a study"}}) {
-    for (const auto& e : fs::directory_iterator(examples / folder, ec))
-      names.push_back(e.path().stem().string());
-    if (std::find(names.begin(), names.end(), missing.string()) != names.end())
-      return std::string("; the example of this name is ") + content + ", which this command does not take";
-  }
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  return "; no example has this name" + suggestion(missing.string(), names);
-}
-
-}  // namespace
-
 std::string example_advice(const Error& e) {
   if (e.reason() == "file not found; check the name") return advice_for_name(e.where());  // of read_toml()
   if (!e.reason().starts_with("file not found: ")) return "";
-  const bool of_example = e.where().starts_with((examples_folder() / "studies").string());
+  const fs::path examples = examples_folder();
+  const bool of_example = !examples.empty() && e.where().starts_with((examples / "studies" / "").string());
   return of_example
              ? "; record it first: the comment at the top of the study states the command. In an installed "
                "Faba, do both in a folder that `faba init` has made"

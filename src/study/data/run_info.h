@@ -49,10 +49,9 @@ RunInfo run_info(const Manifest& m);
 /// Reads a manifest: a JSON object with `version` and optionally `seed, threads, state_hash, scenario_hash,
 /// video_shows, duration_s, um_per_px, um_per_px_source, nominal_um_per_px, title, wall_time_s, view_px = [w,
 /// h], arena = {type, centre_px, radius_px | size_px}, polarity, swarms = [{count, ...}], setpoints,
-/// setpoint_tolerance_px, path_done,
-/// two_swarm_distances_px = [first, second], notes = [..]`. null counts as missing; unknown keys are ignored.
-/// Throws Error(Errc::input) with file and key when the file is missing or not JSON, and for a value of the
-/// wrong type.
+/// setpoint_tolerance_px, path_done, two_swarm_distances_px = [first, second], notes = [..]`. null counts as
+/// missing; unknown keys are ignored. Throws Error(Errc::input) with file and key when the file is missing or
+/// not JSON, and for a value of the wrong type.
 RunInfo read_run_info(const std::filesystem::path& path);
 
 }  // namespace faba

@@ -124,12 +124,12 @@ std::string dispersed_text(const Metrics& m, const RunInfo& info) {
   if (*m.initial_rms_radius_px > kCompact * even || *m.rms_radius_px < kFilled * even) return "";
   std::string text = fmt::format(
       " Only the mean of the cells was controlled: they dispersed over the arena (rms radius {} at the "
-      "start, "
-      "{} at the end",
+      "start, {} "
+      "at the end",
       length_text(*m.initial_rms_radius_px, info), length_text(*m.rms_radius_px, info));
   if (m.visible_at_end && m.most_visible && *m.visible_at_end < 0.9 * *m.most_visible)
-    text += fmt::format("; {:.0f} of {:.0f} cells were out of view at the end",
-                        *m.most_visible - *m.visible_at_end, *m.most_visible);
+    text += fmt::format("; the number of cells in view fell from {:.0f} to {:.0f}", *m.most_visible,
+                        *m.visible_at_end);
   return text + ").";
 }
 

@@ -88,7 +88,7 @@ TEST_CASE("run summary: a run with one setpoint") {
               "at the start, 160\u00A0px (80.0\u00A0µm) at the end)."));
     m.most_visible = 200;
     m.visible_at_end = 73;
-    CHECK(has(run_summary(m, info).outcome, "; 127 of 200 cells were out of view at the end)."));
+    CHECK(has(run_summary(m, info).outcome, "; the number of cells in view fell from 200 to 73)."));
     info.open_loop = true;  // it was not controlled
     CHECK_FALSE(has(run_summary(m, info).outcome, "dispersed"));
     info.open_loop = false;
