@@ -22,6 +22,13 @@ class Archive {
   bool reading() const { return reading_; }
   const std::vector<std::uint8_t>& bytes() const { return bytes_; }
   bool at_end() const { return at_ == bytes_.size(); }
+  /// Takes memory for `bytes` at once instead of step by step.
+  void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
+  /// Writes a value that must not change; only for writing.
+  template <class T>
+  Archive& write(const T& v) {
+    return *this & const_cast<T&>(v);
+  }
 
   template <class T>
   requires std::is_arithmetic_v<T> || std::is_enum_v<T> Archive& operator&(T& v) {

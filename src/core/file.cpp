@@ -39,29 +39,32 @@ void flush_path(const std::filesystem::path& path, int flags, const std::filesys
 }
 
 // Creates a file; follows no link.
-void write_new(const std::filesystem::path& path, std::string_view content,
+void write_new(const std::filesystem::path& path, std::initializer_list<std::string_view> pieces,
                const std::filesystem::path& shown) {
   const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
   int failure = descriptor < 0 ? errno : 0;
-  while (failure == 0 && !content.empty()) {
-    const ssize_t written = ::write(descriptor, content.data(), content.size());
-    if (written >= 0)
-      content.remove_prefix(std::size_t(written));
-    else if (errno != EINTR)
-      failure = errno;
-  }
+  for (std::string_view rest : pieces)
+    while (failure == 0 && !rest.empty()) {
+      const ssize_t written = ::write(descriptor, rest.data(), rest.size());
+      if (written >= 0)
+        rest.remove_prefix(std::size_t(written));
+      else if (errno != EINTR)
+        failure = errno;
+    }
   if (descriptor >= 0 && ::close(descriptor) != 0 && failure == 0 && errno != EINTR) failure = errno;
   if (failure != 0) throw Error(Errc::internal, shown.string(), "cannot be written: " + advice(failure));
 }
 
 }  // namespace
 
-void write_file(const std::filesystem::path& file, std::string_view content) {
+void write_file(const std::filesystem::path& file, std::string_view content) { write_file(file, {content}); }
+
+void write_file(const std::filesystem::path& file, std::initializer_list<std::string_view> pieces) {
   const std::filesystem::path temporary = temporary_name(file);
   // What is there is of a process that was killed, or a link or another name of a file that must not change.
   ::unlink(temporary.c_str());
   try {
-    write_new(temporary, content, file);
+    write_new(temporary, pieces, file);
     rename_complete(temporary, file);
   } catch (...) {
     std::error_code ignored;

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,6 +12,8 @@ namespace faba {
 /// Throws Error(internal) with the reason (full disk, no permission); the temporary file is then removed and
 /// an existing file is unchanged.
 void write_file(const std::filesystem::path& file, std::string_view content);
+/// The same for content in several pieces.
+void write_file(const std::filesystem::path& file, std::initializer_list<std::string_view> pieces);
 
 /// Content of a file. Throws Error(input) if it is missing, a directory or unreadable.
 std::string read_file(const std::filesystem::path& file);

@@ -58,21 +58,25 @@ class Registry {
       const Schema<P>& s, const std::vector<Trait>& its_traits,
       const std::function<std::unique_ptr<Interface>(const P&, const Context&)>& make,
       const std::function<void(P&, const Node&)>& settle = [](P&, const Node&) {}) {
+    const auto schema = std::make_shared<const Schema<P>>(s);
     Entry e;
     e.traits = its_traits;
-    e.json_schema = s.json_schema();
-    e.json_schema["x-traits"] = Json::array();
-    for (const Trait t : e.traits) e.json_schema["x-traits"].push_back(traits::kWords.at(std::size_t(t)));
-    e.resolve = [s, traits = e.traits, make, settle](const Node& n) {
-      P p = s.parse(n, {"type"});
+    e.json_schema = [schema, its_traits] {
+      Json j = schema->json_schema();
+      j["x-traits"] = Json::array();
+      for (const Trait t : its_traits) j["x-traits"].push_back(traits::kWords.at(std::size_t(t)));
+      return j;
+    };
+    e.resolve = [schema, its_traits, make, settle](const Node& n) {
+      P p = schema->parse(n, {"type"});
       settle(p, n);
-      Json resolved = {{"type", s.name()}};
-      resolved.update(s.to_json(p));
-      std::vector<Trait> its = traits;  // and those of the parts that it contains
+      Json resolved = {{"type", schema->name()}};
+      resolved.update(schema->to_json(p));
+      std::vector<Trait> its = its_traits;  // and those of the parts that it contains
       if constexpr (requires { p.traits(); })
         for (const Trait t : p.traits()) its.push_back(t);
-      return PartType{s.name(), std::move(its), std::move(resolved),
-                      [p, make](const Context& c) { return make(p, c); }, s.notes(p)};
+      return PartType{schema->name(), std::move(its), std::move(resolved),
+                      [p, make](const Context& c) { return make(p, c); }, schema->notes(p)};
     };
     if (!entries_.emplace(s.name(), std::move(e)).second)
       throw Error(Errc::internal, kind_ + " " + s.name(), "registered twice");
@@ -123,12 +127,12 @@ class Registry {
     return v;
   }
   /// JSON Schema of one part's parameters. The name must exist.
-  const Json& json_schema(const std::string& name) const { return entries_.at(name).json_schema; }
+  Json json_schema(const std::string& name) const { return entries_.at(name).json_schema(); }
   /// JSON Schema of a table whose `type` is the name of any of the parts.
   Json json_schema_of_any() const {
     Json any = Json::array();
     for (const auto& [name, e] : entries_) {
-      Json one = e.json_schema;
+      Json one = e.json_schema();
       one["properties"]["type"] = {{"const", name}};
       one["required"] = Json::array({"type"});
       any.push_back(one);
@@ -162,7 +166,7 @@ class Registry {
 
   struct Entry {
     std::vector<Trait> traits;
-    Json json_schema;
+    std::function<Json()> json_schema;  ///< made when it is needed: most runs need none
     std::function<PartType(const Node&)> resolve;
   };
   std::string kind_, doc_;

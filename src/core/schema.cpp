@@ -210,9 +210,8 @@ Json type_json(const char* type, const FieldInfo& f, const Json& fallback) {
 
 void Fields::add(std::string key, std::size_t at, const ValueType& type, FieldInfo info,
                  const void* defaults) {
-  const Json fallback = type.dump(static_cast<const char*>(defaults) + at, info);
-  Json described = type.describe(info, fallback);
-  fields_.push_back({std::move(key), std::move(info), at, &type, std::move(described)});
+  Json fallback = type.dump(static_cast<const char*>(defaults) + at, info);
+  fields_.push_back({std::move(key), std::move(info), at, &type, std::move(fallback)});
 }
 
 void Fields::include(const Fields& other, std::size_t at) {
@@ -278,7 +277,7 @@ Json Fields::to_json(const void* from) const {
 
 Json Fields::json_schema(const std::vector<const void*>& preset_values) const {
   Json properties = Json::object();
-  for (const Field& f : fields_) properties[f.key] = f.json_schema;
+  for (const Field& f : fields_) properties[f.key] = f.type->describe(f.info, f.fallback);
   Json j = {{"title", name}, {"description", summary}, {"type", "object"}, {"additionalProperties", false}};
   if (!presets.empty()) {
     Json names = Json::array();

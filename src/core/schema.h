@@ -210,7 +210,7 @@ class Fields {
     FieldInfo info;
     std::size_t at;
     const ValueType* type;
-    Json json_schema;
+    Json fallback;
   };
   const Field* find(const std::string& key) const;  ///< by its key or its old key
   std::vector<Field> fields_;

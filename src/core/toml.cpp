@@ -15,6 +15,7 @@ constexpr void require(bool holds) {
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -237,10 +238,14 @@ Document read_toml(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in.is_open())
     throw Error(Errc::usage, file.string(), std::string("cannot be read: ") + std::strerror(errno));
-  std::string text(kMaxBytes + 1, '\0');
-  in.read(text.data(), std::streamsize(text.size()));
+  // In blocks: a pipe has no size, and zeros for the maximum would take longer than reading a scenario.
+  std::string text;
+  std::array<char, 1 << 14> block{};
+  do {
+    in.read(block.data(), std::streamsize(block.size()));
+    text.append(block.data(), std::size_t(in.gcount()));
+  } while (in && text.size() <= kMaxBytes);
   if (in.bad() || (in.fail() && !in.eof())) throw Error(Errc::usage, file.string(), "cannot be read");
-  text.resize(std::size_t(in.gcount()));
   return parse_toml(text, file.string());
 }
 

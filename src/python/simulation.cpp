@@ -62,7 +62,9 @@ RgbImage PySimulation::drawing() {
   if (!drawn_)
     drawn_ =
         std::make_unique<DrawnSwarm>(simulation_->world(), simulation_->loop(), scenario_.scale.um_per_px);
-  return drawn_->draw(last_->tick->seen->t, last_->tick->target.position);
+  RgbImage picture;
+  drawn_->draw(last_->tick->seen->t, last_->tick->target.position, picture);
+  return picture;
 }
 
 std::vector<std::uint8_t> PySimulation::save() {

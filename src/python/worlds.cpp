@@ -215,7 +215,8 @@ class PyWorlds {
       throw Error(Errc::usage, "drawing", fmt::format("there is no world {}", which));
     const Worlds::World& w = worlds_.all()[which];
     DrawnSwarm drawn(w.simulation->world(), w.simulation->loop(), w.scenario->scale.um_per_px);
-    const RgbImage image = drawn.draw(w.cycle.seen.t, w.cycle.target.position);
+    RgbImage image;
+    drawn.draw(w.cycle.seen.t, w.cycle.target.position, image);
     return py::array_t<std::uint8_t>({image.height, image.width, 3}, &image.px.front().r);
   }
 

@@ -158,7 +158,8 @@ std::vector<ControllerPart> variants(const std::string& name, const ControlConte
     } catch (const Error&) {  // rules over several keys, listed in ranges_test.cpp, or over the context
     }
   };
-  for (const auto& [key, field] : registry.json_schema(name)["properties"].items()) {
+  const Json properties = registry.json_schema(name)["properties"];
+  for (const auto& [key, field] : properties.items()) {
     for (const char* end : {"minimum", "maximum"})
       if (field.contains(end)) add(key, field[end]);
     if (field.contains("enum"))

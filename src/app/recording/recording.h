@@ -30,6 +30,7 @@ class Recording {
   void complete();
 
   const std::filesystem::path& dir() const { return directory_.path(); }
+  const Manifest& manifest() const { return manifest_; }  ///< as written by finish()
   /// series.csv, after finish().
   Table series() const { return series_->rows(); }
   /// Frames of the video for the report, after finish(); empty if none were kept.

@@ -76,7 +76,9 @@ void Session::record(RunDirectory directory, Archive* resume) {
 }
 
 void Session::checkpoint() {
+  constexpr std::size_t kBytesPerCell = 64, kOther = 1 << 16;
   Archive a;
+  a.reserve(kBytesPerCell * simulation_->world().state().agents.size() + kOther);
   simulation_->archive(a);
   recording_.checkpoint(a);
 }
@@ -106,11 +108,11 @@ bool Session::run() {
     return !stop;
   });
   const bool complete = loop.next == total;
-  recording_.finish(manifest(), !complete);
+  recording_.finish(manifest_now(), !complete);
   return complete;
 }
 
-Manifest Session::manifest() const {
+Manifest Session::manifest_now() const {
   const Loop& loop = simulation_->loop();
   const World& world = simulation_->world();
   Manifest m = manifest_of(scenario_, seed_, simulation_->frame(), world.parts().arena->outline());

@@ -36,8 +36,8 @@ class Session {
 
   /// Runs to the end, or until stopped; then writes a checkpoint. Returns whether the end was reached.
   bool run();
-  /// Content of manifest.json for the current state.
-  Manifest manifest() const;
+  /// Content of manifest.json, after run().
+  const Manifest& manifest() const { return recording_.manifest(); }
   /// series.csv, after run().
   Table series() const { return recording_.series(); }
   /// Frames of the video for the report, after run(); empty if none were kept.
@@ -54,6 +54,7 @@ class Session {
   Session(Scenario s, std::uint64_t seed, const RunOptions& o);
   void record(RunDirectory directory, Archive* resume);
   void checkpoint();
+  Manifest manifest_now() const;
 
   Scenario scenario_;
   std::uint64_t seed_;

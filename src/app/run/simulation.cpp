@@ -233,8 +233,12 @@ std::string Simulation::state_hash() const {
 }
 
 void Simulation::archive(Archive& a) {
-  State state = a.reading() ? State{} : world_->state();
-  a& state & loop_->next & loop_->last_t & loop_->last.current;
+  State state;
+  if (a.reading())
+    a& state;
+  else
+    a.write(world_->state());
+  a & loop_->next & loop_->last_t & loop_->last.current;
   if (a.reading()) {
     apply_due(loop_->next);  // the state read below is that of the exchanged parts
     world_->restore(state);

@@ -26,7 +26,7 @@ RigEditor::RigEditor(const FieldRegistry& fields, Json rig) : fields_(fields), r
 
 std::size_t RigEditor::coils() const { return rig_.at("coil").size(); }
 
-const Json& RigEditor::schema_of(std::size_t coil) const {
+Json RigEditor::schema_of(std::size_t coil) const {
   return fields_.json_schema(rig_.at("coil").at(coil).at("type").get<std::string>());
 }
 

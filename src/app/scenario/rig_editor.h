@@ -31,7 +31,7 @@ class RigEditor {
   std::unique_ptr<Field> make() const { return resolved().make({}); }
 
  private:
-  const Json& schema_of(std::size_t coil) const;
+  Json schema_of(std::size_t coil) const;
   Json* find(std::size_t coil, Role role);
   const Json* find(std::size_t coil, Role role) const;
   const FieldRegistry& fields_;

@@ -7,7 +7,7 @@ namespace faba {
 DrawnSwarm::DrawnSwarm(const World& world, const Loop& loop, std::optional<double> um_per_px)
     : world_(world), loop_(loop), um_per_px_(um_per_px) {}
 
-RgbImage DrawnSwarm::draw(double t, Vec2 target) {
+void DrawnSwarm::draw(double t, Vec2 target, RgbImage& picture) {
   const State& s = world_.state();
   const Frame& frame = world_.parts().arena->frame();
   const auto x = s.agents["x"], y = s.agents["y"], response = s.agents["response"];
@@ -39,7 +39,7 @@ RgbImage DrawnSwarm::draw(double t, Vec2 target) {
   scene.route = route_;
   scene.field_ut = {b.x * 1e6, b.y * 1e6};
   if (!picture_) picture_.emplace(scene);
-  return picture_->draw(scene);
+  picture_->draw(scene, picture);
 }
 
 }  // namespace faba

@@ -12,8 +12,8 @@ class DrawnSwarm {
  public:
   /// `world` and `loop` must outlive it. `um_per_px` is for the scale bar; empty: in px.
   DrawnSwarm(const World& world, const Loop& loop, std::optional<double> um_per_px);
-  /// `target`: setpoint in world coordinates; not finite: none.
-  RgbImage draw(double t, Vec2 target);
+  /// `target`: setpoint in world coordinates; not finite: none. `picture`: as for SwarmPicture::draw().
+  void draw(double t, Vec2 target, RgbImage& picture);
 
  private:
   const World& world_;

@@ -33,8 +33,8 @@ SinkContext sink_context(const Scenario& s, Simulation& simulation, Pool& pool,
   c.kept = std::make_shared<KeptFrames>((c.recorded.end - c.recorded.first + every - 1) / every);
   if (!s.record.as_seen) {
     const auto drawn = std::make_shared<DrawnSwarm>(simulation.world(), simulation.loop(), s.scale.um_per_px);
-    c.draw = [drawn, rate = s.camera.rate](const Tick& t) {
-      return drawn->draw(double(t.index) / rate, t.target.position);
+    c.draw = [drawn, rate = s.camera.rate](const Tick& t, RgbImage& picture) {
+      drawn->draw(double(t.index) / rate, t.target.position, picture);
     };
   }
   return c;

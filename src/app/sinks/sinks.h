@@ -57,7 +57,7 @@ struct SinkContext {
   /// The simulated ground truth; null on a bench, whose recording has no true_* columns and no tracks.
   const World* truth = nullptr;
   /// Draws the swarm in this cycle; empty if videos show what the camera sees.
-  std::function<RgbImage(const Tick&)> draw = {};
+  std::function<void(const Tick&, RgbImage& picture)> draw = {};
   /// Gets the frames for the report from the first video; null if the length of the run is not known.
   std::shared_ptr<KeptFrames> kept = {};
 };

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <mutex>
 
 #include "app/sinks/sinks.h"
 #include "core/threads/job_thread.h"
@@ -8,6 +9,27 @@ namespace faba {
 namespace {
 
 constexpr std::size_t kWaitingBytes = 64u << 20;  // of the pictures that wait for the encoder
+
+/// Pictures that have been encoded. A large picture is used again: to get new memory from the system takes
+/// as long as to draw a million cells.
+class SparePictures {
+ public:
+  RgbImage take() {
+    const std::lock_guard lock(mutex_);
+    if (pictures_.empty()) return {};
+    RgbImage last = std::move(pictures_.back());
+    pictures_.pop_back();
+    return last;
+  }
+  void give(RgbImage picture) {
+    const std::lock_guard lock(mutex_);
+    pictures_.push_back(std::move(picture));
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<RgbImage> pictures_;
+};
 
 /// Encodes in its own thread.
 class Video final : public RunSink {
@@ -32,7 +54,12 @@ class Video final : public RunSink {
     const bool kept = c_.kept && c_.kept->keeps(recorded / std::uint64_t(c_.record.video_every));
     const double t_s = kept ? c_.frames->time_of(t) : 0;
     if (c_.draw) {
-      encoding_.add([this, kept, t_s, picture = c_.draw(t)] { write(picture, kept, t_s); });
+      RgbImage drawn = spare_.take();
+      c_.draw(t, drawn);
+      encoding_.add([this, kept, t_s, picture = std::move(drawn)]() mutable {
+        write(picture, kept, t_s);
+        spare_.give(std::move(picture));
+      });
     } else if (lossless_ && c_.frames->bits() == 16) {
       encoding_.add([this, picture = c_.frames->deep_picture()] { writer_->write(picture); });
     } else {
@@ -88,6 +115,7 @@ class Video final : public RunSink {
   bool lossless_;
   std::filesystem::path part_, final_;
   std::optional<VideoWriter> writer_;
+  SparePictures spare_;
   std::vector<double> times_;  ///< s, times of the frames of a bench, which are not known in advance
   JobThread encoding_;         ///< last: its jobs use the other members
 };

@@ -108,6 +108,7 @@ void SimRig::safe() noexcept {
 
 void SimRig::archive_cells(Archive& a, std::vector<Detection>& cells) const {
   std::vector<float> xy;
+  xy.reserve(2 * cells.size());
   for (const Detection& d : cells) xy.insert(xy.end(), {d.x, d.y});
   a& xy;
   if (!a.reading()) return;

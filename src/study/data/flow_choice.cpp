@@ -19,8 +19,9 @@ std::string not_a_parameter(const std::string& key, const std::string& method, c
 
 FlowRegistry::PartType flow_part(const FlowChoice& choice, const FlowChoice& defaults) {
   const FlowRegistry& methods = builtin_flow_methods();
+  const Json known = methods.json_schema(choice.method)["properties"];
   for (const auto& [key, _] : choice.values)
-    if (const Json& known = methods.json_schema(choice.method)["properties"]; !known.contains(key))
+    if (!known.contains(key))
       throw Error(Errc::usage, "--" + key, not_a_parameter(key, choice.method, methods));
   Document d;
   d.name = "--method " + choice.method;

@@ -42,7 +42,9 @@ void write_scene_thumbnail(Scenario s, const std::filesystem::path& png) {
   simulation.loop().sinks.push_back(&last);
   run(simulation.loop(), frames, [] { return true; });
   DrawnSwarm drawn(simulation.world(), simulation.loop(), s.si_scale().m_per_px * 1e6);
-  write_png(png, drawn.draw(double(frames - 1) * s.frame_period(), last.target));
+  RgbImage picture;
+  drawn.draw(double(frames - 1) * s.frame_period(), last.target, picture);
+  write_png(png, picture);
 }
 
 void write_run_thumbnail(const std::filesystem::path& run, const std::filesystem::path& png) {

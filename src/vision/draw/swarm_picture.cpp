@@ -94,8 +94,8 @@ void SwarmPicture::draw_cells(const SwarmScene& s, RgbImage& picture) const {
   }
 }
 
-RgbImage SwarmPicture::draw(const SwarmScene& s) const {
-  RgbImage out = ground_;
+void SwarmPicture::draw(const SwarmScene& s, RgbImage& out) const {
+  out = ground_;
   cv::Mat m(s.height, s.width, CV_8UC3, out.px.data());
   draw_cells(s, out);
   if (s.setpoint) cross(m, *s.setpoint, 10, kPurple);
@@ -105,7 +105,6 @@ RgbImage SwarmPicture::draw(const SwarmScene& s) const {
     field_arrow(m, s);
     text(m, fmt::format("{:.2f} s", s.t), {12, 24}, 0.5);
   }
-  return out;
 }
 
 }  // namespace faba

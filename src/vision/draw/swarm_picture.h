@@ -34,8 +34,9 @@ class SwarmPicture {
  public:
   /// Draws the part that all pictures have in common: background, drop with edge, route.
   explicit SwarmPicture(const SwarmScene& scene);
-  /// Draws the cells, crosses, scale bar, time and field arrow of `scene` on it.
-  RgbImage draw(const SwarmScene& scene) const;
+  /// Draws the cells, crosses, scale bar, time and field arrow of `scene` on it. `picture` gets the result; a
+  /// picture of this size is drawn without taking new memory.
+  void draw(const SwarmScene& scene, RgbImage& picture) const;
 
  private:
   void draw_cells(const SwarmScene& scene, RgbImage& picture) const;

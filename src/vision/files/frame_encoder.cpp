@@ -66,11 +66,12 @@ struct FrameEncoder::Impl {
   Frame frame{};
   Packet packet{FABA_AV(av_packet_alloc)()};
   std::int64_t count = 0;
+  bool restarted = false;  // the next picture needs a new encoder
 
   [[noreturn]] void fail(const std::string& what) const { throw Error(Errc::internal, where, what); }
   void open();
   template <class Pixel>
-  void check(const Image<Pixel>& picture, bool kind_fits) const;
+  void prepare(const Image<Pixel>& picture, bool kind_fits);
   std::span<const std::uint8_t> code();
   template <class Pixel>
   void copy(const Image<Pixel>& picture);
@@ -115,6 +116,7 @@ void FrameEncoder::Impl::open() {
   frame->color_range = codec->color_range;
   if (FABA_AV(av_frame_get_buffer)(frame.get(), 0) < 0) fail("out of memory for a video frame");
   count = 0;
+  restarted = false;
 }
 
 template <class Pixel>
@@ -154,13 +156,15 @@ std::span<const std::uint8_t> FrameEncoder::Impl::code() {
 }
 
 template <class Pixel>
-void FrameEncoder::Impl::check(const Image<Pixel>& picture, bool kind_fits) const {
+void FrameEncoder::Impl::prepare(const Image<Pixel>& picture, bool kind_fits) {
   const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   if (!kind_fits || picture.width != width || picture.height != height || picture.px.size() != pixels) {
     fail("a frame of " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
          " px does not match the encoder: wrong pixel type or size; it must be " + std::to_string(width) +
          " x " + std::to_string(height) + " px");
   }
+  if (restarted) open();
+  if (FABA_AV(av_frame_make_writable)(frame.get()) < 0) fail("out of memory for a video frame");
 }
 
 FrameEncoder::FrameEncoder(Kind kind, int width, int height, FrameRate rate, std::string where)
@@ -178,8 +182,7 @@ FrameEncoder& FrameEncoder::operator=(FrameEncoder&&) noexcept = default;
 
 std::span<const std::uint8_t> FrameEncoder::encode(const RgbImage& picture) {
   Impl& self = *impl_;
-  self.check(picture, self.kind == Kind::png_colour || self.kind == Kind::ppm || self.kind == Kind::h264);
-  if (FABA_AV(av_frame_make_writable)(self.frame.get()) < 0) self.fail("out of memory for a video frame");
+  self.prepare(picture, self.kind == Kind::png_colour || self.kind == Kind::ppm || self.kind == Kind::h264);
   if (self.kind == Kind::h264) {
     const AVFrame& to = *self.frame;
     to_yuv420(picture, {to.data[0], to.data[1], to.data[2], to.linesize[0], to.linesize[1], to.linesize[2]});
@@ -192,9 +195,8 @@ std::span<const std::uint8_t> FrameEncoder::encode(const RgbImage& picture) {
 
 std::span<const std::uint8_t> FrameEncoder::encode(const Gray8& picture) {
   Impl& self = *impl_;
-  self.check(picture, self.kind == Kind::png_grey || self.kind == Kind::pgm || self.kind == Kind::tiff ||
-                          self.kind == Kind::h264_grey);
-  if (FABA_AV(av_frame_make_writable)(self.frame.get()) < 0) self.fail("out of memory for a video frame");
+  self.prepare(picture, self.kind == Kind::png_grey || self.kind == Kind::pgm || self.kind == Kind::tiff ||
+                            self.kind == Kind::h264_grey);
   self.copy(picture);
   if (self.kind == Kind::h264_grey) self.pad_to_yuv420();
   return self.code();
@@ -202,8 +204,7 @@ std::span<const std::uint8_t> FrameEncoder::encode(const Gray8& picture) {
 
 std::span<const std::uint8_t> FrameEncoder::encode(const Image<std::uint16_t>& picture) {
   Impl& self = *impl_;
-  self.check(picture, self.kind == Kind::png_grey16);
-  if (FABA_AV(av_frame_make_writable)(self.frame.get()) < 0) self.fail("out of memory for a video frame");
+  self.prepare(picture, self.kind == Kind::png_grey16);
   for (int row = 0; row < picture.height; ++row) {
     std::uint8_t* to = self.frame->data[0] + std::ptrdiff_t{row} * self.frame->linesize[0];
     const std::uint16_t* from = picture.px.data() + std::ptrdiff_t{row} * picture.width;
@@ -215,6 +216,9 @@ std::span<const std::uint8_t> FrameEncoder::encode(const Image<std::uint16_t>& p
   return self.code();
 }
 
-void FrameEncoder::restart() { impl_->open(); }
+// A new encoder takes much memory, and there may be no other picture.
+void FrameEncoder::restart() { impl_->restarted = true; }
+
+const AVCodecContext& FrameEncoder::codec() const { return *impl_->codec; }
 
 }  // namespace faba

@@ -7,6 +7,8 @@
 #include "vision/files/video_format.h"
 #include "vision/image/image.h"
 
+struct AVCodecContext;
+
 namespace faba {
 
 /// Encodes pictures of one size into one packet of bytes per picture, without delay. Single-threaded. The
@@ -42,6 +44,9 @@ class FrameEncoder {
 
   /// Discards the encoder state: the next picture is encoded as a key frame, as by a new encoder.
   void restart();
+
+  /// The parameters of the encoded stream, for its container.
+  const AVCodecContext& codec() const;
 
  private:
   struct Impl;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <string>
 #include <system_error>
 
@@ -30,18 +31,34 @@ using Output = std::unique_ptr<AVFormatContext, FreeOutput>;
 
 std::string file_url(const std::filesystem::path& path) { return "file:" + path.string(); }
 
+// The part of an H.264 key frame before its first slice: the parameter sets, which MP4 stores once.
+std::span<const std::uint8_t> headers_of(const AVPacket& key_frame) {
+  const std::span<const std::uint8_t> all(key_frame.data, static_cast<std::size_t>(key_frame.size));
+  constexpr int kSlice = 1, kKeySlice = 5;
+  for (std::size_t i = 0; i + 3 < all.size(); ++i) {
+    if (all[i] != 0 || all[i + 1] != 0 || all[i + 2] != 1) continue;
+    const int type = all[i + 3] & 31;
+    if (type == kSlice || type == kKeySlice) return all.first(i);
+  }
+  return all;
+}
+
 class Remuxer {
  public:
-  Remuxer(const std::filesystem::path& part, VideoFormat format, FrameRate rate,
+  Remuxer(const std::filesystem::path& part, VideoFormat format, FrameRate rate, const FrameEncoder& encoder,
           const std::filesystem::path& to, const std::function<double(long long)>& time_s)
       : part_(part),
         to_(to),
         mp4_(format == VideoFormat::mp4),
         rate_(rate),
+        encoder_(encoder),
         time_s_(mp4_ ? time_s : nullptr) {}
   // Writes the complete `temporary`; errors name `to`.
   long long write(const std::filesystem::path& temporary) {
     open_input();
+    if (!read_frame()) {
+      throw Error(Errc::internal, part_.string(), "contains no frames; the video cannot be finished");
+    }
     open_output(temporary);
     const long long frames = copy_frames();
     finish();
@@ -50,6 +67,8 @@ class Remuxer {
 
  private:
   void open_input();
+  bool read_frame();
+  void describe(AVStream& stream) const;
   void open_output(const std::filesystem::path& temporary);
   long long copy_frames();
   void finish();
@@ -63,9 +82,11 @@ class Remuxer {
   const std::filesystem::path &part_, &to_;
   const bool mp4_;
   const FrameRate rate_;
+  const FrameEncoder& encoder_;
   const std::function<double(long long)> time_s_;  // empty: regular times
   Input in_;
   Output out_;
+  const Packet packet_{FABA_AV(av_packet_alloc)()};
 };
 
 void Remuxer::open_input() {
@@ -73,14 +94,36 @@ void Remuxer::open_input() {
   AVFormatContext* raw = nullptr;
   AVDictionary* options = nullptr;
   FABA_AV(av_dict_set)(&options, "pattern_type", "none", 0);
-  FABA_AV(av_dict_set)(&options, "fpsprobesize", "0", 0);  // the frame rate is known; do not decode for it
+  FABA_AV(av_dict_set)(&options, "raw_packet_size", "65536", 0);  // bytes that H.264 is read by
   const AVInputFormat* kind = FABA_AV(av_find_input_format)(mp4_ ? "h264" : "png_pipe");
-  int result = FABA_AV(avformat_open_input)(&raw, file_url(part_).c_str(), kind, &options);
+  const int result = FABA_AV(avformat_open_input)(&raw, file_url(part_).c_str(), kind, &options);
   FABA_AV(av_dict_free)(&options);
   if (result < 0) fail(part_, "the recorded frames cannot be read", result);
   in_.reset(raw);
-  result = FABA_AV(avformat_find_stream_info)(raw, nullptr);
-  if (result < 0) fail(part_, "the recorded frames cannot be read", result);
+}
+
+bool Remuxer::read_frame() {
+  const int result = FABA_AV(av_read_frame)(in_.get(), packet_.get());
+  if (result < 0 && result != AVERROR_EOF) fail(part_, "the recorded frames cannot be read", result);
+  return result >= 0;
+}
+
+// From the encoder: avformat_find_stream_info() would decode frames, which takes longer than a short run.
+void Remuxer::describe(AVStream& stream) const {
+  AVCodecParameters& parameters = *stream.codecpar;
+  FABA_AV(avcodec_parameters_from_context)(&parameters, &encoder_.codec());
+  parameters.codec_tag = mp4_ ? MKTAG('a', 'v', 'c', '1') : MKTAG('M', 'P', 'N', 'G');
+  parameters.bit_rate = 0;  // not a property of the frames
+  parameters.field_order = AV_FIELD_PROGRESSIVE;
+  stream.time_base = tick();
+  stream.avg_frame_rate = {rate_.numerator, rate_.denominator};
+  if (!mp4_) return;
+  const auto headers = headers_of(*packet_);
+  auto* copy = static_cast<std::uint8_t*>(FABA_AV(av_mallocz)(headers.size() + AV_INPUT_BUFFER_PADDING_SIZE));
+  if (copy == nullptr) fail(to_, "cannot be written", AVERROR(ENOMEM));
+  std::ranges::copy(headers, copy);
+  parameters.extradata = copy;
+  parameters.extradata_size = int(headers.size());
 }
 
 void Remuxer::open_output(const std::filesystem::path& temporary) {
@@ -91,11 +134,7 @@ void Remuxer::open_output(const std::filesystem::path& temporary) {
   if (result < 0) fail(to_, "this FFmpeg does not have the container format", result);
   out_.reset(raw);
   raw->flags |= AVFMT_FLAG_BITEXACT;  // no version and no date: reproducible bytes
-  AVStream* stream = FABA_AV(avformat_new_stream)(raw, nullptr);
-  FABA_AV(avcodec_parameters_copy)(stream->codecpar, in_->streams[0]->codecpar);
-  stream->codecpar->codec_tag = mp4_ ? MKTAG('a', 'v', 'c', '1') : MKTAG('M', 'P', 'N', 'G');
-  stream->time_base = tick();
-  stream->avg_frame_rate = {rate_.numerator, rate_.denominator};
+  describe(*FABA_AV(avformat_new_stream)(raw, nullptr));
   result = FABA_AV(avio_open)(&raw->pb, file_url(temporary).c_str(), AVIO_FLAG_WRITE);
   if (result < 0) fail(to_, "cannot be written", result);
   AVDictionary* options = nullptr;
@@ -106,24 +145,19 @@ void Remuxer::open_output(const std::filesystem::path& temporary) {
 }
 
 long long Remuxer::copy_frames() {
-  const Packet packet(FABA_AV(av_packet_alloc)());
   AVStream* stream = out_->streams[0];
   long long frames = 0;
-  for (;; ++frames) {
-    int result = FABA_AV(av_read_frame)(in_.get(), packet.get());
-    if (result == AVERROR_EOF) break;
-    if (result < 0) fail(part_, "the recorded frames cannot be read", result);
-    packet->stream_index = 0;
-    packet->pts = packet->dts = stamp(frames);
-    packet->duration = std::max<std::int64_t>(1, stamp(frames + 1) - stamp(frames));
-    packet->pos = -1;
-    FABA_AV(av_packet_rescale_ts)(packet.get(), tick(), stream->time_base);
-    result = FABA_AV(av_write_frame)(out_.get(), packet.get());
-    FABA_AV(av_packet_unref)(packet.get());
+  do {
+    packet_->stream_index = 0;
+    packet_->pts = packet_->dts = stamp(frames);
+    packet_->duration = std::max<std::int64_t>(1, stamp(frames + 1) - stamp(frames));
+    packet_->pos = -1;
+    FABA_AV(av_packet_rescale_ts)(packet_.get(), tick(), stream->time_base);
+    const int result = FABA_AV(av_write_frame)(out_.get(), packet_.get());
+    FABA_AV(av_packet_unref)(packet_.get());
     if (result < 0) fail(to_, "cannot be written", result);
-  }
-  if (frames == 0)
-    throw Error(Errc::internal, part_.string(), "contains no frames; the video cannot be finished");
+    ++frames;
+  } while (read_frame());
   return frames;
 }
 
@@ -140,11 +174,12 @@ void Remuxer::finish() {
 }  // namespace
 
 long long remux(const std::filesystem::path& part, VideoFormat format, FrameRate rate,
-                const std::filesystem::path& to, const std::function<double(long long)>& time_s) {
+                const FrameEncoder& encoder, const std::filesystem::path& to,
+                const std::function<double(long long)>& time_s) {
   libav::quiet();
   const std::filesystem::path temporary = to.string() + ".tmp";
   try {
-    const long long frames = Remuxer(part, format, rate, to, time_s).write(temporary);
+    const long long frames = Remuxer(part, format, rate, encoder, to, time_s).write(temporary);
     rename_complete(temporary, to);
     return frames;
   } catch (...) {

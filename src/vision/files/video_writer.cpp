@@ -71,7 +71,7 @@ std::uint64_t VideoWriter::sync() {
 void VideoWriter::finish(const std::filesystem::path& final_path, bool keep_part,
                          const std::function<double(long long frame)>& time_s) {
   impl_->file.sync();
-  remux(impl_->file.path(), impl_->format, impl_->rate, final_path, time_s);
+  remux(impl_->file.path(), impl_->format, impl_->rate, impl_->encoder, final_path, time_s);
   impl_->file.close();
   if (keep_part) return;
   std::error_code ignored;
