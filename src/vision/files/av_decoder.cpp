@@ -13,6 +13,9 @@ namespace {
 
 constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;  // limit for corrupt or malicious headers
 
+// The edit list of an MP4 may end before its last packet, which then gives no frame.
+bool is_shown(const AVPacket& packet) { return (packet.flags & AV_PKT_FLAG_DISCARD) == 0; }
+
 }  // namespace
 
 void AvDecoder::open() {
@@ -190,9 +193,10 @@ std::int64_t AvDecoder::skip_to(double t_s) {
   bool more = std::exchange(holding, false);
   if (more) std::swap(incoming, held);
   for (more = more || take_packet(); more; more = bytes < kMaxKept && take_packet()) {
-    const double t = time_of_packet(*incoming, index++);
+    const double t = time_of_packet(*incoming, index);
+    if (is_shown(*incoming)) ++index;
     if ((incoming->flags & AV_PKT_FLAG_KEY) != 0 && t <= t_s + kRounding) {
-      dropped += static_cast<std::int64_t>(kept.size());
+      dropped += std::ranges::count_if(kept, [](const Packet& packet) { return is_shown(*packet); });
       kept.clear();
       bytes = 0;
       from_key = true;
@@ -245,7 +249,7 @@ bool AvDecoder::read_packet() {
 }
 
 void AvDecoder::send(AVPacket& packet) {
-  ++sent;
+  if (is_shown(packet)) ++sent;
   const bool key = (packet.flags & AV_PKT_FLAG_KEY) != 0;
   if ((packet.flags & AV_PKT_FLAG_CORRUPT) != 0) {
     note_damage("a frame is incomplete");

@@ -51,7 +51,7 @@ struct AvDecoder {
   // After damage: frames predicted from a lost frame are wrong as well.
   bool need_key_packet = false, need_key_frame = false;
   std::int64_t damaged = 0, delivered = 0;
-  std::int64_t sent = 0;  // packets: sent to the decoder, or dropped by skip_to()
+  std::int64_t sent = 0;  // packets of frames: sent to the decoder, or dropped by skip_to()
   std::string damage;
   std::int64_t first_stamp = AV_NOPTS_VALUE;
   double last_t = 0;

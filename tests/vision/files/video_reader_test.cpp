@@ -257,6 +257,28 @@ TEST_CASE("truncation exactly between two frames of an mp4 is detected") {
   CHECK(cut.truncated());
 }
 
+TEST_CASE("an mp4 of which the edit list ends before the last frame has one frame less, and is not damaged") {
+  const media::ScratchFolder folder;
+  constexpr int kFrames = 30;  // at 10 Hz
+  std::string bytes = media::read_bytes(record(folder, VideoFormat::mp4, kFrames));
+  // The list of edits: name, version, count (1), then the duration in ms.
+  const std::size_t duration = bytes.find("elst") + 12;
+  constexpr unsigned kShorter = (kFrames - 1) * 100;
+  for (std::size_t i = 0; i < 4; ++i) bytes[duration + i] = char(kShorter >> (24 - 8 * i) & 0xFF);
+  media::write_bytes(folder / "edited.mp4", bytes);
+  for (const unsigned threads : {1U, 3U}) {
+    CAPTURE(threads);
+    VideoReader edited(folder / "edited.mp4", 0, threads);
+    CHECK(read_all(edited).size() == kFrames - 1);
+    CHECK_FALSE(edited.truncated());
+    CHECK(edited.damage().empty());
+    CHECK(edited.seek(1) == (threads == 1));  // it was not read again by one thread, as a damaged file is
+  }
+  VideoReader part(folder / "edited.mp4");
+  part.skip_to(2.85);
+  CHECK(read_all(part).size() == kFrames - 1 - 20);  // key frames at 0, 10 and 20
+}
+
 TEST_CASE("no error concealment: after damage, frames are skipped until the next key frame") {
   const media::ScratchFolder folder;
   const auto path = record(folder, VideoFormat::mp4, 30);  // key frames at 0, 10 and 20
