@@ -3,6 +3,8 @@
 #include <libdeflate.h>
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 #include <memory>
 #include <new>
 
@@ -95,27 +97,37 @@ void shuffle(std::span<const std::uint8_t> in, std::size_t element_bytes, std::u
 }
 
 // Fletcher's checksum of big-endian 16-bit words, as HDF5 stores it. The sums are reduced after 360 words,
-// before the second one can exceed 32 bits.
+// before the second one can exceed 32 bits. The sums of such a block are independent of those before it, so
+// that the compiler computes several words at once.
 std::uint32_t fletcher32(std::span<const std::uint8_t> bytes) {
-  constexpr std::size_t kWords = 360;
-  std::uint32_t a = 0, b = 0;
+  constexpr std::uint32_t kWords = 360;
   const auto reduce = [](std::uint32_t s) { return (s & 0xFFFF) + (s >> 16); };
-  std::size_t at = 0;
-  for (std::size_t words = bytes.size() / 2; words > 0;) {
-    const std::size_t some = std::min(words, kWords);
-    words -= some;
-    for (std::size_t i = 0; i < some; ++i, at += 2) {
-      a += std::uint32_t(bytes[at] << 8 | bytes[at + 1]);
-      b += a;
+  std::uint32_t a = 0, b = 0;
+  const auto add = [&](std::uint32_t words, std::uint32_t sum, std::uint32_t weighted) {
+    b = reduce(b + words * a + weighted);
+    a = reduce(a + sum);
+  };
+  const std::uint8_t* at = bytes.data();
+  std::size_t left = bytes.size() / 2;
+  for (; left >= kWords; left -= kWords) {
+    std::uint32_t sum = 0, weighted = 0;
+    for (std::uint32_t i = 0; i < kWords; ++i) {
+      std::uint16_t word = 0;
+      std::memcpy(&word, at + 2 * i, 2);
+      if constexpr (std::endian::native == std::endian::little) word = std::uint16_t(word << 8 | word >> 8);
+      sum += word;
+      weighted += (kWords - i) * word;
     }
-    a = reduce(a);
-    b = reduce(b);
+    add(kWords, sum, weighted);
+    at += 2 * kWords;
+  }
+  for (; left > 0; --left, at += 2) {
+    const auto word = std::uint32_t(at[0] << 8 | at[1]);
+    add(1, word, word);
   }
   if (bytes.size() % 2 != 0) {
-    a += std::uint32_t(bytes[at] << 8);
-    b += a;
-    a = reduce(a);
-    b = reduce(b);
+    const auto word = std::uint32_t(*at << 8);
+    add(1, word, word);
   }
   return reduce(b) << 16 | reduce(a);
 }

@@ -94,7 +94,8 @@ void Remuxer::open_input() {
   AVFormatContext* raw = nullptr;
   AVDictionary* options = nullptr;
   FABA_AV(av_dict_set)(&options, "pattern_type", "none", 0);
-  FABA_AV(av_dict_set)(&options, "raw_packet_size", "65536", 0);  // bytes that H.264 is read by
+  // Bytes to read at a time; the first packet of PNG files would be the entire file.
+  FABA_AV(av_dict_set)(&options, mp4_ ? "raw_packet_size" : "frame_size", "65536", 0);
   const AVInputFormat* kind = FABA_AV(av_find_input_format)(mp4_ ? "h264" : "png_pipe");
   const int result = FABA_AV(avformat_open_input)(&raw, file_url(part_).c_str(), kind, &options);
   FABA_AV(av_dict_free)(&options);
