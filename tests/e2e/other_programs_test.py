@@ -94,6 +94,18 @@ class TracksOfRuns(WithFolder):
         with xarray.open_dataset(self.dir / "rounded/tracks.h5", engine="h5netcdf") as rounded:
             self.check(rounded, self.dir / "rounded/tracks.h5", rounded=True)
 
+    def test_readable_as_soon_as_it_exists(self):
+        for attempt in range(10):
+            out = self.dir / f"begun-{attempt}"
+            running = subprocess.Popen([PROGRAM, "run", scene("steer.toml"), "--seed", "3", "--set", "record.video=false", "--quiet", "--out", out])
+            file = out / "tracks.h5"
+            while not file.exists() and running.poll() is None:
+                pass
+            running.kill()
+            running.wait()
+            with h5py.File(file, "r", swmr=True) as data:
+                self.assertEqual(data["position_px"].shape[2], 2)
+
     def test_killed_read_and_resumed(self):
         out, entire = self.dir / "killed", self.dir / "entire"
         common = ("run", scene("steer.toml"), "--seed", 3, "--duration", "120 s", "--set", "record.video=false", "--set",

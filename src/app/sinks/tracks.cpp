@@ -35,8 +35,7 @@ class Tracks final : public RunSink {
   Tracks(const SinkContext& c, std::uint64_t keep)
       : c_(c),
         path_(c.dir / "tracks.h5"),
-        file_(
-            H5File::create(keep ? path_.string() + ".new" : path_.string(), c.pool ? c.pool->threads() : 1)) {
+        file_(H5File::create(path_.string() + ".new", c.pool ? c.pool->threads() : 1)) {
     const auto n = std::uint64_t(c.truth->state().agents.size());
     const std::uint64_t rows = std::clamp<std::uint64_t>(kChunkBytes / (8 * n), 1, 64);
     // All tables have chunks of the same number of rows, so that they grow together.
@@ -50,6 +49,8 @@ class Tracks final : public RunSink {
     describe_dimensions(n);
     file_.begin_writing();
     if (keep) import_rows(keep);
+    // Only now other programs can read it, also when the run is killed at once.
+    file_.rename_complete(path_);
   }
 
   void take(const Tick& t) override {
@@ -128,29 +129,26 @@ class Tracks final : public RunSink {
   }
 
   void import_rows(std::uint64_t keep) {
-    {
-      const H5File old = H5File::open(path_);
-      const H5Table frame = old.table("frame"), t = old.table("t_s"),
-                    responding = responding_ ? old.table("responding") : frame;
-      PositionTable position(old);
-      if (position.rows() < keep)
-        throw Error(Errc::input, path_.string(),
-                    fmt::format("has {} frames, but the checkpoint has {}", position.rows(), keep));
-      row_.resize(2 * position.cells());
-      flags_.resize(position.cells());
-      for (std::uint64_t r = 0; r < keep; ++r) {
-        std::uint64_t index = 0;
-        double time = 0;
-        frame.read<std::uint64_t>(r, {&index, 1});
-        t.read<double>(r, {&time, 1});
-        position.read(r, row_);
-        append(index, time);
-        if (!responding_) continue;
-        responding.read<std::uint8_t>(r, flags_);
-        responding_->append<std::uint8_t>(flags_);
-      }
+    const H5File old = H5File::open(path_);
+    const H5Table frame = old.table("frame"), t = old.table("t_s"),
+                  responding = responding_ ? old.table("responding") : frame;
+    PositionTable position(old);
+    if (position.rows() < keep)
+      throw Error(Errc::input, path_.string(),
+                  fmt::format("has {} frames, but the checkpoint has {}", position.rows(), keep));
+    row_.resize(2 * position.cells());
+    flags_.resize(position.cells());
+    for (std::uint64_t r = 0; r < keep; ++r) {
+      std::uint64_t index = 0;
+      double time = 0;
+      frame.read<std::uint64_t>(r, {&index, 1});
+      t.read<double>(r, {&time, 1});
+      position.read(r, row_);
+      append(index, time);
+      if (!responding_) continue;
+      responding.read<std::uint8_t>(r, flags_);
+      responding_->append<std::uint8_t>(flags_);
     }
-    file_.rename_complete(path_);
   }
 
   SinkContext c_;
