@@ -96,7 +96,7 @@ class TracksOfRuns(WithFolder):
 
     def test_readable_as_soon_as_it_exists(self):
         for attempt in range(10):
-            out = self.dir / f"begun-{attempt}"
+            out = self.dir / f"started-{attempt}"
             running = subprocess.Popen([PROGRAM, "run", scene("steer.toml"), "--seed", "3", "--set", "record.video=false", "--quiet", "--out", out])
             file = out / "tracks.h5"
             while not file.exists() and running.poll() is None:

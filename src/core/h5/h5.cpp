@@ -16,12 +16,10 @@
 namespace faba {
 namespace {
 
-// Cache of decoded chunks for readers, per table: a row of chunks of every file that this program writes
-// fits.
+// Cache of decoded chunks for readers, per table: a row of chunks of every file of this program fits.
 constexpr std::size_t kCacheBytes = 64u << 20, kCacheSlots = 12421;
-constexpr hsize_t kColumnChunk = 1 << 16;  // values
-// Bytes to convert texts in; HDF5 would fill 2 MB with zeros for a column of two.
-constexpr std::size_t kTextBuffer = 1 << 14;
+constexpr hsize_t kColumnChunk = 1 << 16;     // values
+constexpr std::size_t kTextBuffer = 1 << 14;  // bytes; by default HDF5 clears 2 MB to convert two texts
 
 template <class T>
 hid_t type_of() {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/scenario/parts.h"
 
 namespace faba {
@@ -19,10 +21,13 @@ std::string not_a_parameter(const std::string& key, const std::string& method, c
 
 FlowRegistry::PartType flow_part(const FlowChoice& choice, const FlowChoice& defaults) {
   const FlowRegistry& methods = builtin_flow_methods();
-  const Json known = methods.json_schema(choice.method)["properties"];
-  for (const auto& [key, _] : choice.values)
-    if (!known.contains(key))
-      throw Error(Errc::usage, "--" + key, not_a_parameter(key, choice.method, methods));
+  const std::vector<std::string> names = methods.names();
+  if (std::ranges::count(names, choice.method) > 0) {  // resolve() refuses an unknown one
+    const Json known = methods.json_schema(choice.method)["properties"];
+    for (const auto& [key, _] : choice.values)
+      if (!known.contains(key))
+        throw Error(Errc::usage, "--" + key, not_a_parameter(key, choice.method, methods));
+  }
   Document d;
   d.name = "--method " + choice.method;
   d.set("flow.type", Json(choice.method), "--method " + choice.method);
