@@ -69,15 +69,19 @@ await step('each layer can be switched off', async () => {
     await page.waitForTimeout(200);
     return false;
   }, 'a paused frame with a plan');
-  await page.waitForTimeout(300);
-  const complete = await drawn();
-  assert.equal(await drawn(), complete, 'the picture of a paused run does not change');
+  let complete = null; // the last frame may still be on its way
+  await until(async () => {
+    const before = await drawn();
+    await page.waitForTimeout(300);
+    complete = await drawn();
+    return complete === before;
+  }, 'a picture of a paused run that does not change');
   for (const layer of ['Plan', 'Error of the estimate', 'Obstacles']) {
     const box = page.getByLabel(layer, { exact: true });
     await box.uncheck();
-    assert.notEqual(await drawn(), complete, `${layer} is not drawn`);
+    await until(async () => (await drawn()) !== complete, `${layer} is not drawn`);
     await box.check();
-    assert.equal(await drawn(), complete, `${layer} is drawn again`);
+    await until(async () => (await drawn()) === complete, `${layer} is drawn again`);
   }
   await shot('plan');
   await page.getByRole('button', { name: 'Resume' }).click();
