@@ -76,6 +76,7 @@ void Session::record(RunDirectory directory, Archive* resume) {
 }
 
 void Session::checkpoint() {
+  // More than a checkpoint without pictures takes; memory that is reserved and not used costs nothing.
   constexpr std::size_t kBytesPerCell = 64, kOther = 1 << 16;
   Archive a;
   a.reserve(kBytesPerCell * simulation_->world().state().agents.size() + kOther);
