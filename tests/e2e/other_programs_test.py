@@ -39,9 +39,16 @@ def scene(name):
     return ROOT / "scenes" / name
 
 
+def example_of_guide(name):
+    """The code below the comment `name` in docs/guide/other-programs.md."""
+    return (ROOT / "docs/guide/other-programs.md").read_text().split(f"<!-- {name} -->")[1].split("```python")[1].split("```")[0]
+
+
 def during_writing(file):
-    """The data of a file that is being written, or whose writer was killed, as docs/guide/other-programs.md says."""
-    return xarray.open_dataset(xarray.backends.H5NetCDFStore(h5netcdf.File(file, "r", swmr=True, decode_vlen_strings=True)))
+    """The data of a file that is being written, or whose writer was killed."""
+    names = {}
+    exec(example_of_guide("during a run").replace("runs/steer/tracks.h5", str(file)), names)
+    return names["run"]
 
 
 class WithFolder(unittest.TestCase):
@@ -52,8 +59,8 @@ class WithFolder(unittest.TestCase):
 
 
 class TracksOfRuns(WithFolder):
-    def check(self, dataset, file, rounded=False, swmr=False):
-        """Dimensions, units and values."""
+    def check(self, dataset, file, rounded=False, writer="complete"):
+        """Dimensions, units and values. `writer`: complete, killed, or running, so that the file can have more rows than the dataset."""
         positions = "position_steps" if rounded else "position_px"
         self.assertEqual(dataset[positions].dims, ("frame", "cell", "axis"))
         self.assertEqual(list(dataset.axis.values), ["x", "y"])
@@ -64,10 +71,13 @@ class TracksOfRuns(WithFolder):
         for name, variable in dataset.variables.items():
             self.assertTrue(variable.attrs["units"], name)
             self.assertTrue(variable.attrs["long_name"], name)
-        with h5py.File(file, "r", swmr=swmr) as f:
-            self.assertEqual({len(f[k]) for k in ("frame", "t_s", positions)}, {dataset.sizes["frame"]})
+        rows = dataset.sizes["frame"]
+        numpy.testing.assert_array_equal(numpy.diff(dataset.frame), dataset.attrs["every_frames"])
+        with h5py.File(file, "r", swmr=writer != "complete") as f:
+            for name in ("frame", "t_s", positions):
+                (self.assertGreaterEqual if writer == "running" else self.assertEqual)(len(f[name]), rows, name)
             if not rounded:
-                numpy.testing.assert_array_equal(dataset[positions].sel(axis="y", cell=2), f[positions][:, 2, 1])
+                numpy.testing.assert_array_equal(dataset[positions].sel(axis="y", cell=2), f[positions][:rows, 2, 1])
         numpy.testing.assert_allclose(dataset.t_s, dataset.frame / dataset.attrs["fps"])
 
     def test_complete_run(self):
@@ -84,10 +94,8 @@ class TracksOfRuns(WithFolder):
         common = ("run", scene("steer.toml"), "--seed", 1, "--duration", "3 s", "--set", "record.video=false")
         faba(*common, "--out", self.dir / "exact")
         faba(*common, "--out", self.dir / "rounded", "--set", "record.resolution_px=0.015625")
-        guide = (ROOT / "docs/guide/other-programs.md").read_text()
-        code = guide.split("<!-- rounded positions -->")[1].split("```python")[1].split("```")[0]
         names = {}
-        exec(code.replace("runs/long", str(self.dir / "rounded")), names)
+        exec(example_of_guide("rounded positions").replace("runs/long", str(self.dir / "rounded")), names)
         with xarray.open_dataset(self.dir / "exact/tracks.h5", engine="h5netcdf") as exact:
             self.assertEqual(names["position_px"].dims, exact.position_px.dims)
             self.assertLessEqual(float(abs(names["position_px"] - exact.position_px).max()), 0.5 * 0.015625 + 1e-4)
@@ -119,7 +127,7 @@ class TracksOfRuns(WithFolder):
             try:
                 with during_writing(file) as data:
                     if running.poll() is None and data.sizes["frame"] > 0:
-                        self.check(data, file, swmr=True)
+                        self.check(data, file, writer="running")
                         seen += 1
             except OSError:  # not created yet
                 pass
@@ -127,7 +135,7 @@ class TracksOfRuns(WithFolder):
         running.send_signal(signal.SIGKILL)
         running.wait()
         with during_writing(file) as data:
-            self.check(data, file, swmr=True)
+            self.check(data, file, writer="killed")
         if (out / "incomplete").exists():
             faba("resume", out, "--quiet")
         faba(*common, "--quiet", "--out", entire)
