@@ -41,6 +41,7 @@ class Compact final : public Controller {
   Compact(const Params& p, const ControlContext& c);
   Command update(const Estimate& e, const Target& target, double dt) override;
   double max_field() const override;
+  std::vector<Vec2> nulls(std::span<const Vec2> setpoints) const override;
   void archive(Archive& a) override {
     a& steering_& transporting_& holding_& started_& along_& zero_& smallest_& waited_;
     trap_.archive(a);
@@ -134,6 +135,14 @@ double Compact::max_field() const {
     return std::numeric_limits<double>::infinity();
   const double holding = (1 + Rotation::kLargestBias) * rotation_->strength();
   return steering_.max_field() + std::max(0.0, holding - steering_.strongest());
+}
+
+// Without a drop the trap gathers the swarm where it is.
+std::vector<Vec2> Compact::nulls(std::span<const Vec2> setpoints) const {
+  std::vector<Vec2> all;
+  if (p_.gather == Gathering::trap && c_.drop) all.push_back(c_.drop->centre);
+  if (p_.transport == Transport::trap) all.insert(all.end(), setpoints.begin(), setpoints.end());
+  return all;
 }
 
 Vec2 Compact::edge_towards(Vec2 target, Vec2 swarm) const {

@@ -2,6 +2,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "control/plan/plan.h"
@@ -54,6 +55,11 @@ class Controller {
   /// Largest field that it ever commands, T; infinity if only the limits of the coils limit it. Does not
   /// include the fields of given_currents().
   virtual double max_field() const { return std::numeric_limits<double>::infinity(); }
+  /// Where it puts zeros of the field at which the swarm gathers, for these setpoints; m, world frame.
+  virtual std::vector<Vec2> nulls(std::span<const Vec2> setpoints) const {
+    (void)setpoints;
+    return {};
+  }
   /// The sets of coil currents that its parameters give directly, A; one current per coil.
   virtual std::vector<std::vector<double>> given_currents() const { return {}; }
   /// The plan of the last update, for display. Empty for a controller that does not predict, before its first

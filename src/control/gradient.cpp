@@ -23,6 +23,9 @@ class Gradient final : public Controller {
   }
   Gradient(const Params& p, const ControlContext& c) : trap_(p.trap, c) {}
   Command update(const Estimate&, const Target& target, double) override { return trap_.at(target.position); }
+  std::vector<Vec2> nulls(std::span<const Vec2> setpoints) const override {
+    return {setpoints.begin(), setpoints.end()};
+  }
   void archive(Archive& a) override { trap_.archive(a); }
 
  private:

@@ -60,6 +60,9 @@ class GradientFeedback final : public Controller {
     }
     return trap_.at(target.position + lead_);
   }
+  std::vector<Vec2> nulls(std::span<const Vec2> setpoints) const override {
+    return {setpoints.begin(), setpoints.end()};
+  }
   void archive(Archive& a) override {
     a& lead_& integral_;
     trap_.archive(a);

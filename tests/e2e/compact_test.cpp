@@ -92,3 +92,28 @@ TEST_CASE("compact: without walls a uniform field cannot make a swarm smaller (F
   // Before the cells have turned they swim in all directions, which makes the swarm larger, too.
   CHECK(*std::min_element(c.radius.begin(), c.radius.end()) >= 0.99 * c.first());
 }
+
+TEST_CASE("compact: a run states which zeros of its trap the coils cannot produce") {
+  const TestFolder f;
+  const auto notes = [&](const std::string& settings) {
+    const Called c = faba_in(f.path, "run '" FABA_SCENES
+                                     "/compact.toml' --seed 1 --out run --force --set duration=0.1 --set "
+                                     "record.video=false " +
+                                         settings);
+    REQUIRE_MESSAGE(c.exit == 0, c.err);
+    return c.err;
+  };
+  const std::string trap = "--set controller.gather=trap --set controller.transport=trap ",
+                    weak = "--set limits.max_current=0.001 --set 'field.earth={field=[3e-4,0,0]}' ";
+  const char* unreachable = "cannot produce a zero of the field at (360, 360) px";
+  CHECK(notes(trap).find("zero of the field") == std::string::npos);
+  const std::string stated = notes(trap + weak);
+  CHECK(stated.find(unreachable) != std::string::npos);
+  CHECK(stated.find(unreachable) ==
+        stated.rfind(unreachable));  // the middle of the drop is also the setpoint
+  // By the edge and a uniform field the same controller needs no zero.
+  CHECK(notes("").find("zero of the field") == std::string::npos);
+  // The zero of two coils drives cells away along one direction.
+  CHECK(notes(trap + "--set field.file=" FABA_SCENES "/../rigs/thesis-two-coils.toml").find("a saddle") !=
+        std::string::npos);
+}

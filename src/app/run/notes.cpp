@@ -58,9 +58,11 @@ constexpr const char* kSaddle =
     "a saddle: a field without divergence that attracts cells along one direction drives them away along the "
     "other. Four coils can trap along both directions, as in rigs/thesis-four-coils.toml (theory C6)";
 
-// Whether the zeros of a gradient controller are reachable and trap cells.
+// Whether the zeros of the field that the controller produces are reachable and trap cells.
 void note_traps(const Scenario& s, const Simulation& simulation, Notes& notes) {
   const Field& field = *simulation.world().parts().field;
+  const std::vector<Vec2> nulls = simulation.controller().nulls(simulation.reference().setpoints());
+  if (nulls.empty()) return;
   if (!field.varies()) {
     notes.push_back(fmt::format(
         "controller: the coils of field \"{}\" have no gradient and cannot produce a zero; use a field with "
@@ -69,16 +71,17 @@ void note_traps(const Scenario& s, const Simulation& simulation, Notes& notes) {
     return;
   }
   const std::vector<double> limits = field.max_currents(s.limits.max_current);
-  for (const Vec2 at : simulation.reference().setpoints()) {
+  for (const Vec2 at : nulls) {
     const FieldNull n = null_at(field, at, s.polarity(), limits);
+    if (n.reachable && !n.saddle) continue;
     const std::string position = in_px(simulation.frame().image_from_world(at));
-    if (!n.reachable)
-      notes.push_back(
-          fmt::format("controller: these coils cannot produce a zero of the field at {}; the swarm does not "
-                      "gather there",
-                      position));
-    else if (n.saddle)
-      notes.push_back(fmt::format("controller: the zero of the field at {} is {}", position, kSaddle));
+    const std::string note =
+        n.reachable ? fmt::format("controller: the zero of the field at {} is {}", position, kSaddle)
+                    : fmt::format(
+                          "controller: these coils cannot produce a zero of the field at {}; the swarm "
+                          "does not gather there",
+                          position);
+    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
   }
 }
 
@@ -381,7 +384,7 @@ std::vector<std::string> scenario_notes(const Scenario& s, const Simulation& sim
     else
       note_polarities(s, notes);
   }
-  if (s.controller.has(Trait::seeks_null)) note_traps(s, simulation, notes);
+  note_traps(s, simulation, notes);
   if (const auto& table = simulation.world().parts().table; table && table->error() > FieldTable::kTolerance)
     notes.push_back(
         fmt::format("library: the error of the field on its grid is up to {:.1g} of the maximum field of a "
