@@ -200,6 +200,9 @@ TEST_CASE("Ctrl-C: exit 130, the recording is readable, resume gives the same ha
   CHECK(WEXITSTATUS(status) == 130);
   CHECK(std::filesystem::exists(f.path / "cut/incomplete"));
   CHECK(read_file(f.path / "cut/series.csv").size() > 200);
+  const Called again = faba_in(f.path, "run s.toml --seed 1 --out cut");
+  CHECK(again.exit == 2);
+  CHECK(again.err.find("continue it with `faba resume`") != std::string::npos);
   const Called resumed = faba_in(f.path, "resume cut --json");
   REQUIRE_MESSAGE(resumed.exit == 0, resumed.err);
   CHECK(resumed.json()["state_hash"] == uninterrupted["state_hash"]);

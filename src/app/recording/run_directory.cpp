@@ -36,8 +36,12 @@ bool make_directory(const std::filesystem::path& dir, bool force) {
   if (!holds_run(dir))
     throw Error(Errc::usage, dir.string(), "has files that do not belong to a run; choose another --out");
   if (!force)
-    throw Error(Errc::usage, dir.string(),
-                "already contains a run; choose another --out, or --force to replace it");
+    throw Error(
+        Errc::usage, dir.string(),
+        RunLock::marks(dir) && std::filesystem::is_regular_file(dir / kCheckpoint, ec)
+            ? "contains a run that is not complete; continue it with `faba resume`, or choose another --out, "
+              "or --force to replace it"
+            : "already contains a run; choose another --out, or --force to replace it");
   for (const char* name : kRunFiles)
     if (std::filesystem::is_directory(dir / name, ec))
       throw Error(Errc::usage, (dir / name).string(),

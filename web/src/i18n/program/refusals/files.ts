@@ -10,6 +10,7 @@ export const files: Record<string, string> = {
   'cannot be created: {}; choose another --out': 'não pode ser criada: {}; escolha outro --out',
   'has files that do not belong to a run; choose another --out': 'tem arquivos que não pertencem a uma execução; escolha outro --out',
   'already contains a run; choose another --out, or --force to replace it': 'já contém uma execução; escolha outro --out, ou --force para substituí-la',
+  'contains a run that is not complete; continue it with `faba resume`, or choose another --out, or --force to replace it': 'contém uma execução que não está completa; continue-a com `faba resume`, ou escolha outro --out, ou --force para substituí-la',
   'is a directory, but the run writes a file of this name; choose another --out': 'é uma pasta, mas a execução grava um arquivo com este nome; escolha outro --out',
   'the run is complete; there is nothing to resume': 'a execução está completa; não há o que retomar',
   'is not a run directory: it has no manifest.json; give the directory of a run': 'não é a pasta de uma execução: não tem manifest.json; informe a pasta de uma execução',
