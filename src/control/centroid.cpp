@@ -1,6 +1,19 @@
 #include "control/centroid.h"
 
+#include <cmath>
+
 namespace faba {
+
+Mat2 flicker_cov(Mat2 before, Mat2 now, double cells) {
+  const Mat2 change = now + -1.0 * before;
+  // |M| = root of M^2, in the closed form for 2 x 2 matrices.
+  const double det = std::abs(change.xx * change.yy - change.xy * change.xy);
+  const Mat2 square{change.xx * change.xx + change.xy * change.xy, change.xy * (change.xx + change.yy),
+                    change.yy * change.yy + change.xy * change.xy};
+  const double trace = std::sqrt(square.xx + square.yy + 2 * det);
+  if (!(cells > 0) || !(trace > 0) || !std::isfinite(trace)) return {};
+  return 1 / (trace * cells) * (square + Mat2{det, 0, det});
+}
 
 Estimate Centroid::update(const Observation& o, bool only_visible) {
   const auto counts = [&](const Detection& d) { return d.in_view || !only_visible; };

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/centroid.h"
 #include "control/plant/mean_filter.h"
 
 namespace faba {
@@ -46,7 +47,7 @@ class EstimatorKalman final : public Estimator {
     void archive(Archive& a) { a& since& along; }
   };
   void choose_source(bool pictures);
-  Mat2 error_of(const Estimate& seen) const;
+  Mat2 error_of(const Estimate& seen);
   void advance_to(double t);
   void measure(const Estimate& seen);
   Estimate predicted(const Observation& o, const Estimate& seen) const;
@@ -65,6 +66,7 @@ class EstimatorKalman final : public Estimator {
   double act_t_ = 0;            ///< time at which the last command acted, s
   double seen_t_ = 0;           ///< time of the last measurement that was taken, s
   double cells_ = 0, most_cells_ = 0;
+  Mat2 seen_cov_;  ///< of the cells in the last measurement, m^2
 };
 
 Schema<EstimatorKalman::Params> EstimatorKalman::schema(
@@ -111,10 +113,12 @@ void EstimatorKalman::choose_source(bool pictures) {
 
 // Covariance of the errors that differ from frame to frame. When cells have left the view, the mean of the
 // others has moved by up to a standard deviation of the swarm.
-Mat2 EstimatorKalman::error_of(const Estimate& seen) const {
+Mat2 EstimatorKalman::error_of(const Estimate& seen) {
   const double noise = p_.noise_px * c_.scale.m_per_px;
   const double lost = most_cells_ > 0 ? std::max(0.0, 1 - seen.visible / most_cells_) : 0.0;
-  return Mat2{noise * noise, 0, noise * noise} + lost * lost * seen.cov;
+  const Mat2 flicker = flicker_cov(filter_.started() ? seen_cov_ : seen.cov, seen.cov, seen.visible);
+  seen_cov_ = seen.cov;
+  return Mat2{noise * noise, 0, noise * noise} + lost * lost * seen.cov + flicker;
 }
 
 template <class Advance>
@@ -174,7 +178,8 @@ void EstimatorKalman::archive(Archive& a) {
   a& chosen& pictures_;
   if (chosen && !source_) choose_source(pictures_);
   if (source_) source_->archive(a);
-  a& filter_& acting_& filter_t_& act_t_& seen_t_& cells_& most_cells_;
+  a& filter_& acting_& filter_t_& act_t_& seen_t_& cells_& most_cells_& seen_cov_.xx& seen_cov_.xy& seen_cov_
+      .yy;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "app/run/simulation.h"
 #include "app/scenario/read_scenario.h"
+#include "control/centroid.h"
 #include "control/plant/mean_filter.h"
 
 using namespace faba;
@@ -54,6 +55,7 @@ Errors errors(int delay, std::uint64_t seed) {
   const auto kalman = builtin_parts().estimator.resolve(Node{type, "estimator", nullptr}).make(c);
   MeanFilter filter(c.motion, {});
   const double noise = 0.1 * c.scale.m_per_px;
+  Mat2 cov;  // of the cells in the picture before
   Errors e;
   CycleInput cycle;
   std::vector<Vec2> fields(std::size_t(delay), Vec2{});  // those that acted since the picture
@@ -62,10 +64,12 @@ Errors errors(int delay, std::uint64_t seed) {
     // The world is at the time at which the command of this cycle acts.
     const Vec2 truth = true_centroid(simulation.world().state());
     const Estimate predicted = kalman->update(cycle.seen, simulation.loop().last);
-    const Vec2 seen = cycle.estimate.centroid;
-    if (k == 0 || k > delay) filter.measure(seen, {noise * noise, 0, noise * noise});
+    const Estimate& seen = cycle.estimate;
+    const Mat2 flicker = flicker_cov(k == 0 ? seen.cov : cov, seen.cov, seen.visible);
+    cov = seen.cov;
+    if (k == 0 || k > delay) filter.measure(seen.centroid, Mat2{noise * noise, 0, noise * noise} + flicker);
     if (k >= kSettled) {
-      e.image += dot(seen - truth, seen - truth);
+      e.image += dot(seen.centroid - truth, seen.centroid - truth);
       e.kalman += dot(predicted.centroid - truth, predicted.centroid - truth);
       e.normalised += normalised(predicted.centroid - truth, predicted.centroid_cov);
       e.innovations.push_back(filter.innovation());
@@ -132,6 +136,26 @@ TEST_CASE("kalman: an outlier does not move the estimate") {
   CHECK(f.belief().position() == before);
 }
 
+TEST_CASE(
+    "kalman: the error of a centroid by cells that flicker follows from the change of their covariance") {
+  // 400 cells with the covariance (1, 0; 0, 1), and one at 10 standard deviations that only one of two
+  // pictures shows. The square of its shift is right to the fraction 1 / 10^2 + 2 / n, 1.5 %.
+  constexpr double n = 400;
+  const Vec2 far{6, 8};
+  const Vec2 shift = (1 / (n + 1)) * far;
+  const double rest = n / (n + 1), one = n / ((n + 1) * (n + 1));
+  const Mat2 without{1, 0, 1};
+  const Mat2 with{rest + one * far.x * far.x, one * far.x * far.y, rest + one * far.y * far.y};
+  const double tolerance = 0.015 * dot(shift, shift);
+  for (const Mat2 error : {flicker_cov(without, with, n + 1), flicker_cov(with, without, n)}) {
+    CHECK(std::abs(error.xx - shift.x * shift.x) < tolerance);
+    CHECK(std::abs(error.xy - shift.x * shift.y) < tolerance);
+    CHECK(std::abs(error.yy - shift.y * shift.y) < tolerance);
+  }
+  CHECK(flicker_cov(with, with, n).xx == 0);
+  CHECK(flicker_cov(without, with, 0).xx == 0);
+}
+
 TEST_CASE("kalman: on rendered pictures it predicts the swarm to the time of the command") {
   // The mean of the squared normalised innovations of 20 seeds has 40 degrees of freedom: in 95 % of the
   // frames it is between 24.43 / 20 and 59.34 / 20.
@@ -158,10 +182,11 @@ TEST_CASE("kalman: on rendered pictures it predicts the swarm to the time of the
             1e6 * std::sqrt(all.kalman / n), " um; normalised error ", all.normalised / n, ", innovation ",
             mean, ", inside the band in ", inside, " % of the frames");
     if (delay >= 2) CHECK(all.kalman < 0.25 * all.image);
-    // The filter adapts the size of its innovations: their standard deviation is right to 10 %. In single
-    // frames they are not inside the band in 95 %, because the errors of pictures are neither white nor
-    // normal.
-    CHECK(mean == doctest::Approx(2).epsilon(0.2));
+    // The mean over the frames, too, has 4000 degrees of freedom if they are independent, and with 95 % is in
+    // this band. Of the single frames fewer than 95 % are in theirs: the errors of pictures have larger tails
+    // than normal ones, and the plant is not known exactly while the swarm turns.
+    CHECK(mean > 1.913);
+    CHECK(mean < 2.088);
     // The covariance states at least the error.
     CHECK(all.normalised / n < 2);
   }
