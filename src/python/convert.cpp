@@ -37,7 +37,7 @@ Json json_at(py::handle value, const std::string& where, int depth) {
     Json j = Json::object();
     for (const auto& [k, v] : py::reinterpret_borrow<py::dict>(value)) {
       const auto key = py::str(k).cast<std::string>();
-      j[key] = json_at(v, where.empty() ? key : where + "." + key, depth + 1);
+      j[key] = json_at(v, where.empty() ? key : fmt::format("{}.{}", where, key), depth + 1);
     }
     return j;
   }

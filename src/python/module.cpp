@@ -51,7 +51,8 @@ PyObject* make_module() {
 
 }  // namespace
 
-// What the macro PYBIND11_MODULE defines, after the check of the interpreter.
+// What the macro PYBIND11_MODULE defines, after the check of the interpreter. Python prescribes the name.
+// NOLINTBEGIN(bugprone-reserved-identifier)
 extern "C" PYBIND11_EXPORT PyObject* PyInit__faba();
 extern "C" PYBIND11_EXPORT PyObject* PyInit__faba() {
   if (!in_main_interpreter()) return nullptr;
@@ -64,3 +65,4 @@ extern "C" PYBIND11_EXPORT PyObject* PyInit__faba() {
   }
   return nullptr;
 }
+// NOLINTEND(bugprone-reserved-identifier)

@@ -79,7 +79,7 @@ void Raised::rethrow(const std::string& note) {
   first_.reset();
   raised_ = false;
   if (!note.empty()) e.value().attr("add_note")(note);
-  throw e;  // NOLINT(cert-err60-cpp): copies share the Python object
+  throw py::error_already_set(e);  // NOLINT(cert-err60-cpp): copies share the Python object
 }
 
 void bind_error(py::module_& m) {
@@ -94,6 +94,8 @@ void bind_error(py::module_& m) {
       PyExc_RuntimeError, nullptr);
   if (!error_class) throw py::error_already_set();
   m.add_object("Error", error_class);
+  // pybind11 prescribes the type of the parameter.
+  // NOLINTNEXTLINE(performance-unnecessary-value-param)
   py::register_exception_translator([](std::exception_ptr p) {
     try {
       if (p) std::rethrow_exception(p);

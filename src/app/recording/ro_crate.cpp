@@ -52,7 +52,8 @@ void collect_inputs(const Json& value, std::vector<std::string>& names) {
   for (const auto& [key, member] : value.items()) {
     if (member.is_structured()) {
       collect_inputs(member, names);
-    } else if ((key == "file" || key == "background") && member.is_string() && member != "") {
+    } else if ((key == "file" || key == "background") && member.is_string() &&
+               !member.get_ref<const std::string&>().empty()) {
       const std::filesystem::path file(member.get<std::string>());
       const std::string name = (file.has_filename() ? file : file.parent_path()).filename().string();
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);

@@ -87,7 +87,8 @@ class TuneJob final : public StudyJob {
   bool run(StudyDirectory& dir, SweepOptions options, const Common& c) override {
     Progress bar("trials", !c.quiet && !c.json);
     // The search may end early.
-    const auto most = std::uint64_t((study_.evaluations + 2) * study_.seeds + 2 * study_.held_out_seeds);
+    const auto most = (std::uint64_t(study_.evaluations) + 2) * std::uint64_t(study_.seeds) +
+                      2 * std::uint64_t(study_.held_out_seeds);
     options.progress = over_rounds(bar, most);
     result_ = tune(study_, dir.results(), options);
     bar.clear();

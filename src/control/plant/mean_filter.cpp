@@ -69,7 +69,7 @@ void MeanFilter::advance(MeanBelief& b, Vec2 along, double time, double cells) c
   const Covariance root = b.cov.llt().matrixL();
   const Covariance columns = std::sqrt(double(kSize)) * root;
   Eigen::Matrix<double, kSize, 2 * kSize> points;
-  for (int i = 0; i < kSize; ++i) {
+  for (Eigen::Index i = 0; i < kSize; ++i) {
     points.col(2 * i) = moved(plant_, b.mean + columns.col(i), along, time);
     points.col(2 * i + 1) = moved(plant_, b.mean - columns.col(i), along, time);
   }

@@ -39,7 +39,7 @@ Command Steering::command(const Estimate& e, Vec2 a) {
     a = (duty_.sign(std::min(size, 1.0)) / size) * a;
   else if (size > 1)
     a = (1 / size) * a;
-  const Command command = linear(e.centroid, a);
+  Command command = linear(e.centroid, a);
   if (delay_ > 0) {
     given_.erase(given_.begin());
     given_.push_back(field_along(c_, e.centroid, command));

@@ -113,13 +113,13 @@ std::uint32_t fletcher32(std::span<const std::uint8_t> bytes) {
     std::uint32_t sum = 0, weighted = 0;
     for (std::uint32_t i = 0; i < kWords; ++i) {
       std::uint16_t word = 0;
-      std::memcpy(&word, at + 2 * i, 2);
+      std::memcpy(&word, at + std::size_t{2} * i, 2);
       if constexpr (std::endian::native == std::endian::little) word = std::uint16_t(word << 8 | word >> 8);
       sum += word;
       weighted += (kWords - i) * word;
     }
     add(kWords, sum, weighted);
-    at += 2 * kWords;
+    at += std::size_t{2} * kWords;
   }
   for (; left > 0; --left, at += 2) {
     const auto word = std::uint32_t(at[0] << 8 | at[1]);

@@ -20,7 +20,7 @@ fs::path& named_folder() {
 
 fs::path this_program() {
   std::error_code ec;
-  const fs::path self = fs::read_symlink("/proc/self/exe", ec);
+  fs::path self = fs::read_symlink("/proc/self/exe", ec);
   if (ec) throw Error(Errc::internal, "faba", "the folder of this program cannot be read: " + ec.message());
   return self;
 }

@@ -58,7 +58,8 @@ Json save_copy(const LabServices& lab, const Json& asked) {
                   "differs from its original in more than [[rig.coil]]; open the scene again");
     (void)read_scenario(copy, lab.parts);
   } catch (const Error& e) {  // pages know files by their names in the workspace
-    const std::string where = e.where(), full = file.string();
+    const std::string& where = e.where();
+    const std::string full = file.string();
     throw Error(e.code(), where.starts_with(full) ? shown + where.substr(full.size()) : where, e.reason());
   }
   write_file(file, toml);

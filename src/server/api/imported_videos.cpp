@@ -53,9 +53,8 @@ Trash::Item remove_imported_video(const LabServices& lab, const std::string& exp
                             fmt::join(about["used_by"].get<std::vector<std::string>>(), ", ")));
   check_unused(lab, experiment, file);
   ExperimentStore& store = lab.experiments;
-  const Trash::Item item =
-      lab.trash.take(folder_of(experiment) + "/" + file, {},
-                     [&store, experiment, entry] { store.restore_video(experiment, entry); });
+  Trash::Item item = lab.trash.take(folder_of(experiment) + "/" + file, {},
+                                    [&store, experiment, entry] { store.restore_video(experiment, entry); });
   try {
     store.remove_video(experiment, file);
   } catch (const Error&) {

@@ -70,7 +70,7 @@ std::string video_of(const LabServices& lab, const fs::path& page) {
   for (std::size_t i = 1; i < inputs.size(); ++i) {  // the first is the study
     const fs::path video = fs::weakly_canonical(lab.workspace.root() / inputs[i].value("path", ""));
     try {
-      const std::string name = in_workspace(lab, video);
+      std::string name = in_workspace(lab, video);
       (void)lab.workspace.existing(name);
       return name;
     } catch (const Error&) {

@@ -44,7 +44,7 @@ double field_after_reversal(const StepResponseParams& p, int polarity) {
 
 }  // namespace
 
-void BenchConsole::capture(CaptureJob job, BenchDestination to) {
+void BenchConsole::capture(CaptureJob job, const BenchDestination& to) {
   const auto exposed = exposure();
   start(new_activity("capture", to.title, false),
         [this, job, to, exposed](ViewedBench& b, BenchActivity& a) mutable {
@@ -61,12 +61,12 @@ void BenchConsole::capture(CaptureJob job, BenchDestination to) {
           a.captured(done, bytes);
           if (done.kept == 0) throw Error(Errc::input, "capture", "no frame was kept; there is no recording");
           recorded_({.path = job.out, .experiment = to.experiment, .drop = to.drop, .exposure_s = exposed});
-          const std::string note = done.memory_full ? "stopped because the memory was full" : "";
+          std::string note = done.memory_full ? "stopped because the memory was full" : "";
           return note;
         });
 }
 
-void BenchConsole::run(double duration_s, BenchDestination to, std::uint64_t page,
+void BenchConsole::run(double duration_s, const BenchDestination& to, std::uint64_t page,
                        const std::string& permit) {
   permits_.use(permit, page, "run", monotonic_now());
   const auto exposed = exposure();
@@ -85,7 +85,7 @@ void BenchConsole::run(double duration_s, BenchDestination to, std::uint64_t pag
                      .drop = to.drop,
                      .exposure_s = exposed,
                      .polarity = s.polarity()});
-          const std::string note = complete ? "" : "stopped by the user";
+          std::string note = complete ? "" : "stopped by the user";
           return note;
         });
 }

@@ -73,8 +73,8 @@ class BenchConsole {
 
   // Activities. Each returns when it has started; its errors are in the state. Throw Error(usage) during
   // another activity, and Error(input) without an open bench.
-  void capture(CaptureJob job, BenchDestination to);
-  void run(double duration_s, BenchDestination to, std::uint64_t page, const std::string& permit);
+  void capture(CaptureJob job, const BenchDestination& to);
+  void run(double duration_s, const BenchDestination& to, std::uint64_t page, const std::string& permit);
   /// `changes` of [rig.step_response].
   void step_responses(const Json& changes, BenchDestination to, std::uint64_t page,
                       const std::string& permit);

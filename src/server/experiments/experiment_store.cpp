@@ -81,11 +81,12 @@ bool is_invisible(const std::string& character) {
   using Range = std::pair<std::string_view, std::string_view>;
   // UTF-8 has the order of the code points.
   static constexpr Range kInvisible[] = {
-      {"\xC2\x80", "\xC2\x9F"},                   // controls
-      {"\xC2\xAD", "\xC2\xAD"},                   // soft hyphen
-      {"\xD8\x9C", "\xD8\x9C"},                   // Arabic letter mark
-      {"\xE1\xA0\x8E", "\xE1\xA0\x8E"},           // Mongolian vowel separator
-      {"\xE2\x80\x8B", "\xE2\x80\x8F"},           // zero width, marks of direction
+      {"\xC2\x80", "\xC2\x9F"},          // controls
+      {"\xC2\xAD", "\xC2\xAD"},          // soft hyphen
+      {"\xD8\x9C", "\xD8\x9C"},          // Arabic letter mark
+      {"\xE1\xA0\x8E", "\xE1\xA0\x8E"},  // Mongolian vowel separator
+      {"\xE2\x80\x8B", "\xE2\x80\x8F"},  // zero width, marks of direction
+      // NOLINTNEXTLINE(misc-misleading-bidirectional): the characters that are looked for
       {"\xE2\x80\xA8", "\xE2\x80\xAE"},           // line separators, embeddings, overrides
       {"\xE2\x81\xA0", "\xE2\x81\xAF"},           // word joiner, isolates
       {"\xEF\xBB\xBF", "\xEF\xBB\xBF"},           // byte order mark
@@ -125,7 +126,7 @@ std::string safe_name(const std::string& text) {
 }
 
 fs::path ExperimentStore::folder(const std::string& name) const {
-  const fs::path dir = workspace_.inside(shown_folder(name));
+  fs::path dir = workspace_.inside(shown_folder(name));
   if (name.empty() || name.find('/') != name.npos || !experiment_file(dir))
     throw Error(Errc::input, name.substr(0, kLongestName), "experiment not found");
   workspace_.check_links(dir);

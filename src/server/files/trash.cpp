@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <ranges>
 #include <system_error>
 
 #include "core/error.h"
@@ -159,7 +158,8 @@ Trash::Item Trash::undo(int id) {
     if (is_there(place_of(m.name))) throw used(m.name);
   std::vector<const Moved*> done;
   const auto back_to_trash = [&] {
-    for (const Moved* m : done | std::views::reverse) rename_new(place_of(m->name), m->kept, m->name);
+    for (auto m = done.rbegin(); m != done.rend(); ++m)
+      rename_new(place_of((*m)->name), (*m)->kept, (*m)->name);
   };
   for (const Moved& m : it->moved) {
     const fs::path place = place_of(m.name);

@@ -65,7 +65,7 @@ bool is_quantity(const Json& value) {
 void check_numbers(const Json& variant, const std::string& where) {
   if (!variant.contains("set")) return;
   for (const auto& [path, value] : variant["set"].items()) {
-    const JobInput number{.key = where + "set." + path};
+    const JobInput number{.key = fmt::format("{}set.{}", where, path)};
     const auto key = path.substr(path.find_last_of('.') + 1);
     if (key == "file" || key == "background")
       throw Error(Errc::usage, number.key, "is the name of a file; choose a number of the scenario");

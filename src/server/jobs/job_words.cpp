@@ -99,7 +99,7 @@ std::string words_of(const JobInput& i, const Json& value) {
 }
 
 std::string choice_of(const JobInput& i, const Json& value) {
-  const std::string word = value.is_string() ? value.get<std::string>() : "";
+  std::string word = value.is_string() ? value.get<std::string>() : "";
   if (std::find(i.choices.begin(), i.choices.end(), word) == i.choices.end())
     refuse(i, fmt::format("\"{}\" must be one of {}", shown(value), fmt::join(i.choices, ", ")));
   return word;
@@ -109,7 +109,8 @@ std::string choice_of(const JobInput& i, const Json& value) {
 bool is_given(const Json& values, const std::string& key) {
   if (!values.contains(key)) return false;
   const Json& v = values[key];
-  return !v.is_null() && v != "" && !(v.is_array() && v.empty());
+  if (v.is_string()) return !v.get_ref<const std::string&>().empty();
+  return !v.is_null() && !(v.is_array() && v.empty());
 }
 
 void check_keys(const JobKind& kind, const Json& values) {

@@ -65,7 +65,7 @@ std::string trimmed(std::string text) {
 }
 
 std::string tag_of(const Json& asked) {
-  const std::string tag = asked.is_string() ? trimmed(asked.get<std::string>()) : "";
+  std::string tag = asked.is_string() ? trimmed(asked.get<std::string>()) : "";
   const bool plain = std::none_of(tag.begin(), tag.end(), [](char c) { return std::uint8_t(c) < 0x20; });
   if (tag.empty() || tag.size() > kLongestTag || !plain)
     throw Error(Errc::usage, "tags",

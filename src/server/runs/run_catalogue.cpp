@@ -91,7 +91,7 @@ std::string RunCatalogue::rename(const std::string& name, const std::string& to)
   const std::lock_guard lock(mutex_);
   check_unused(name, folder(name));
   const fs::path runs = workspace_.existing("runs");
-  const std::string wanted = safe_name(to);
+  std::string wanted = safe_name(to);
   if (wanted.empty())
     throw Error(Errc::usage, "to", fmt::format("\"{}\" must have at least one letter or digit", to));
   if (wanted == name) return name;

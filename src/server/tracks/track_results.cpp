@@ -84,7 +84,7 @@ std::string TrackResults::new_folder(const std::string& video) const {
 }
 
 fs::path TrackResults::path(const std::string& folder) const {
-  const fs::path dir = workspace_.existing(folder);
+  fs::path dir = workspace_.existing(folder);
   if (!holds_tracks(dir)) throw Error(Errc::input, folder.substr(0, 200), "is not a folder with tracks");
   return dir;
 }

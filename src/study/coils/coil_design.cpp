@@ -45,7 +45,7 @@ std::string coil_in_sample(const Field& field, const CoilDesignOptions& o) {
   for (const double part : {0.5, 1.0})
     for (int i = 0; i < kDirections; ++i) {
       const double angle = 2 * kPi * i / kDirections, r = part * o.sample;
-      const std::string name =
+      std::string name =
           coil_around(field, {o.target.x + r * std::cos(angle), o.target.y + r * std::sin(angle)});
       if (!name.empty()) return name;
     }

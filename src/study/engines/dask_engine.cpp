@@ -87,7 +87,7 @@ class DaskEngine final : public Engine {
       if (std::sscanf(line.c_str(), "end %lu %d %n", &id, &exit, &text) != 2 || running_.erase(id) == 0)
         continue;
       AttemptEnd& end = ends.emplace_back(AttemptEnd{id, end_text(exit), std::max(-1, exit)});
-      if (text < int(line.size())) end.how = line.substr(text);
+      if (text < int(line.size())) end.how = line.substr(std::size_t(text));
     }
     if (over_ && !running_.empty())
       throw Error(

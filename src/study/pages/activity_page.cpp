@@ -49,7 +49,7 @@ std::string onset_caption(const VideoActivity& a) {
 
 // "0.118 px per pair", with the speed if the scale is known.
 std::string threshold_text(const VideoActivity& a) {
-  const std::string px = three_digits(a.threshold_px) + " px per pair";
+  std::string px = three_digits(a.threshold_px) + " px per pair";
   if (!a.um_per_px || !a.timed || a.frame_s <= 0) return px;
   return fmt::format("{} ({} µm/s)", px, three_digits(a.threshold_px * *a.um_per_px / a.frame_s));
 }

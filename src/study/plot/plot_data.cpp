@@ -105,12 +105,14 @@ std::string data_column(const std::vector<double>& all, const std::vector<int>& 
   if (const auto even = even_spacing(all)) {
     const std::vector<std::int64_t> numbers = [&] {
       std::vector<std::int64_t> out;
+      out.reserve(kept.size());
       for (const int i : kept) out.push_back(i < 0 ? kMissing : i);
       return out;
     }();
     return column(fmt::format("{}", even->first), fmt::format("{}", even->step), numbers);
   }
   std::vector<double> values;
+  values.reserve(kept.size());
   for (const int i : kept)
     values.push_back(i < 0 ? std::numeric_limits<double>::quiet_NaN() : all[std::size_t(i)]);
   return data_column(values);

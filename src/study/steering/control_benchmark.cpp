@@ -88,6 +88,7 @@ std::vector<Variant> chosen(const std::vector<Variant>& all, const std::vector<s
     const auto it = std::find_if(all.begin(), all.end(), [&](const Variant& v) { return v.name == name; });
     if (it == all.end()) {
       std::vector<std::string> known;
+      known.reserve(all.size());
       for (const Variant& v : all) known.push_back(v.name);
       n.fail(fmt::format("controllers: \"{}\" is not a controller of the benchmark{}", name,
                          suggestion(name, known)));

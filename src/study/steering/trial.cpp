@@ -43,7 +43,7 @@ class KeepOut final : public Sink {
     Vec2 mean;
     std::size_t count = 0;
     for (std::size_t i = 0; i < x.size(); ++i) {
-      const Vec2 p{x[i], y[i]};
+      const Vec2 p{double(x[i]), double(y[i])};
       mean = mean + (1.0 / double(x.size())) * p;
       count += inside(p);
     }

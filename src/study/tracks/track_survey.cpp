@@ -90,7 +90,10 @@ void choose_background(const TrackOptions& o, TrackSurvey& s, const SurveyedFram
                (o.background == BackgroundKind::automatic && many && 2 * by_time >= by_space);
   s.spots = s.temporal ? by_time : by_space;
   // The temporal background has a noise level for each pixel, used as a weight.
-  s.background = s.temporal ? median : std::move(smooth);
+  if (s.temporal)
+    s.background = median;
+  else
+    s.background = std::move(smooth);
 }
 
 }  // namespace

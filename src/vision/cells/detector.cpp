@@ -293,9 +293,10 @@ std::vector<Spot> Detector::find(const GrayF& frame) const {
 
 SpotSize spot_size(const GrayF& frame, const Background& background, Polarity polarity, Pool& pool) {
   std::vector<double> sizes;
-  for (double size = kSmallestSpot; size < kLargestSpot; size *= 1.2) {
-    if (8 * size / kFwhmPerSd > std::min(frame.width, frame.height)) break;
-    sizes.push_back(size);
+  double next = kSmallestSpot;
+  while (next < kLargestSpot && 8 * next / kFwhmPerSd <= std::min(frame.width, frame.height)) {
+    sizes.push_back(next);
+    next *= 1.2;
   }
   std::vector<std::vector<ScaledMaximum>> maxima(sizes.size());
   pool.run_uneven(sizes.size(), [&](std::size_t i) {

@@ -20,7 +20,7 @@ struct Damaged {};
 /// An open picture or video file and its decoder, for AvStream.
 struct AvDecoder {
   struct CloseIo {
-    void operator()(AVIOContext* io) const { FABA_AV(avio_close)(io); }
+    void operator()(AVIOContext* context) const { FABA_AV(avio_close)(context); }
   };
   using Io = std::unique_ptr<AVIOContext, CloseIo>;
   using Container = std::unique_ptr<AVFormatContext, libav::Free>;

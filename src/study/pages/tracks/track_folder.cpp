@@ -25,6 +25,7 @@ constexpr double kLargestNumber = 1e15;
 
 std::vector<std::string> feature_words() {
   std::vector<std::string> words;
+  words.reserve(std::size(kTrackFeatureNames));
   for (const TrackFeatureName& f : kTrackFeatureNames) words.emplace_back(f.name);
   return words;
 }
