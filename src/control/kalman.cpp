@@ -47,7 +47,7 @@ class EstimatorKalman final : public Estimator {
     void archive(Archive& a) { a& since& along; }
   };
   void choose_source(bool pictures);
-  Mat2 error_of(const Estimate& seen);
+  Mat2 error_of(const Estimate& seen) const;
   void advance_to(double t);
   void measure(const Estimate& seen);
   Estimate predicted(const Observation& o, const Estimate& seen) const;
@@ -113,11 +113,10 @@ void EstimatorKalman::choose_source(bool pictures) {
 
 // Covariance of the errors that differ from frame to frame. When cells have left the view, the mean of the
 // others has moved by up to a standard deviation of the swarm.
-Mat2 EstimatorKalman::error_of(const Estimate& seen) {
+Mat2 EstimatorKalman::error_of(const Estimate& seen) const {
   const double noise = p_.noise_px * c_.scale.m_per_px;
   const double lost = most_cells_ > 0 ? std::max(0.0, 1 - seen.visible / most_cells_) : 0.0;
   const Mat2 flicker = flicker_cov(filter_.started() ? seen_cov_ : seen.cov, seen.cov, seen.visible);
-  seen_cov_ = seen.cov;
   return Mat2{noise * noise, 0, noise * noise} + lost * lost * seen.cov + flicker;
 }
 
@@ -141,6 +140,7 @@ void EstimatorKalman::measure(const Estimate& seen) {
   cells_ = seen.visible;
   most_cells_ = std::max(most_cells_, seen.visible);
   const Mat2 error = error_of(seen);
+  seen_cov_ = seen.cov;
   if (!filter_.started()) filter_t_ = seen.t;
   if (filter_.measure(seen.centroid, error)) seen_t_ = seen.t;
 }
