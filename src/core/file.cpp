@@ -121,6 +121,7 @@ void OutputFile::fail(const char* what_failed, int error_number) const {
 }
 
 void OutputFile::append(std::span<const std::uint8_t> piece) {
+  synced_ = false;
   for (auto rest = piece; !rest.empty();) {
     const ssize_t written = ::write(descriptor_, rest.data(), rest.size());
     if (written >= 0) {
@@ -137,6 +138,7 @@ void OutputFile::append(std::span<const std::uint8_t> piece) {
 }
 
 void OutputFile::replace(std::uint64_t at, std::span<const std::uint8_t> piece) {
+  synced_ = false;
   while (!piece.empty()) {
     const ssize_t written = ::pwrite(descriptor_, piece.data(), piece.size(), static_cast<off_t>(at));
     if (written < 0 && errno != EINTR) fail("cannot be written", errno);
@@ -149,7 +151,11 @@ void OutputFile::append(std::string_view piece) {
   append(std::span(reinterpret_cast<const std::uint8_t*>(piece.data()), piece.size()));
 }
 
-void OutputFile::sync() { flush_descriptor(descriptor_, shown_); }
+void OutputFile::sync() {
+  if (synced_) return;
+  flush_descriptor(descriptor_, shown_);
+  synced_ = true;
+}
 
 void OutputFile::close() {
   if (descriptor_ < 0) return;

@@ -37,7 +37,8 @@ class OutputFile {
   void append(std::string_view piece);
   /// Replaces bytes that were appended, from the byte `at` on.
   void replace(std::uint64_t at, std::span<const std::uint8_t> piece);
-  /// Returns when everything appended so far is on the disk.
+  /// Returns when everything written so far is on the disk; at once when nothing was written since the last
+  /// call.
   void sync();
   /// Closes the file; only sync() guarantees that it is on the disk. Closing twice is allowed.
   void close();
@@ -51,6 +52,7 @@ class OutputFile {
   std::filesystem::path path_, shown_;
   int descriptor_ = -1;
   std::uint64_t size_ = 0;
+  bool synced_ = false;  ///< nothing was written since the last sync()
 };
 
 /// Returns when everything written to an open file is on the disk. Throws Error(Errc::internal, shown).

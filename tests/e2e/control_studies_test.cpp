@@ -121,6 +121,10 @@ TEST_CASE("benchmark-control: tables of all cases, comparison with the baseline,
   for (const char* text :
        {"## free", "## obstacle", "A published figure.", "largest distance / speed, s", "| plan |"})
     CHECK(page.find(text) != std::string::npos);
+  // Of all trials of a controller: 4 seeds in 2 delays of "free" and in the one of "obstacle".
+  CHECK(page.find("## Constraints") != std::string::npos);
+  CHECK(page.find("| plan | 12 | 0 | 0 |") != std::string::npos);
+  CHECK(page.find("| slow | 12 | 0 | 0 |") == std::string::npos);
   CHECK(std::filesystem::exists(f.path / "one/cycles.csv"));
   REQUIRE(faba_in(f.path, "benchmark-control bench.toml --out two --threads 1 --quiet").exit == 0);
   CHECK(read_file(f.path / "one/benchmark.json") == read_file(f.path / "two/benchmark.json"));

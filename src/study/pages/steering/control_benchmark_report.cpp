@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/counted.h"
 #include "core/toml.h"
@@ -106,6 +107,46 @@ ResultTable cycles_of(const std::vector<CycleTime>& cycles) {
   return t;
 }
 
+struct ConstraintRow {
+  std::string controller;
+  int trials = 0;
+  std::optional<double> limited = {};   ///< largest mean of a case; empty: not defined in any
+  std::optional<double> keep_out = {};  ///< the same
+};
+
+void raise(std::optional<double>& largest, const Combination& c, const char* key) {
+  const auto it = c.metrics.find(key);
+  if (it != c.metrics.end()) largest = std::max(largest.value_or(0), it->second.mean);
+}
+
+std::string percent_cell(const std::optional<double>& fraction) {
+  return fraction ? fmt::format("{:.3g}", 100 * *fraction) : "–";
+}
+
+// Every controller over all cases. The fractions are not negative: a mean of zero is zero in every trial.
+ResultTable constraints_of(const ControlBenchmarkResult& r) {
+  std::vector<ConstraintRow> rows;
+  for (const ControllerComparison& one : r.cases)
+    for (const Combination& c : one.combinations) {
+      auto it = std::find_if(rows.begin(), rows.end(),
+                             [&](const ConstraintRow& row) { return row.controller == c.controller; });
+      if (it == rows.end()) it = rows.insert(it, {.controller = c.controller});
+      it->trials += c.trials;
+      raise(it->limited, c, "limited_fraction");
+      raise(it->keep_out, c, "keep_out_fraction");
+    }
+  ResultTable t{{"controller", "trials", "Limited, %", "Mean in a forbidden region, %"}, {}};
+  for (const ConstraintRow& row : rows)
+    t.rows.push_back({row.controller, fmt::format("{}", row.trials), percent_cell(row.limited),
+                      percent_cell(row.keep_out)});
+  return t;
+}
+
+constexpr const char* kConstraints =
+    "All cases together: frames in which the limits of current and slew rate have changed the command, and "
+    "frames in which the mean of the cells was in a forbidden region; the largest mean of a case. 0: in no "
+    "frame of any trial.";
+
 std::string markdown_row(const BenchmarkCells& row) { return fmt::format("| {} |\n", fmt::join(row, " | ")); }
 
 std::string markdown(const ResultTable& t) {
@@ -166,6 +207,7 @@ std::string control_benchmark_markdown(const ControlBenchmarkResult& r,
     if (!one.literature.empty()) out += "\n" + one.literature + "\n";
     for (const std::string& note : r.cases[i].notes) out += "\nNote: " + note + "\n";
   }
+  out += fmt::format("\n## Constraints\n\n{}\n\n{}", kConstraints, markdown(constraints_of(r)));
   if (!cycles.empty())
     out +=
         "\n## Time of a control cycle\n\nEstimator and controller together, one trial of each combination on "
@@ -192,6 +234,7 @@ std::string control_benchmark_page(const ControlBenchmarkResult& r, const std::v
     for (const std::string& note : r.cases[i].notes)
       out += fmt::format("<p class=\"warning\">{}</p>\n", escape_markup(note));
   }
+  out += fmt::format("<h2>Constraints</h2>\n<p>{}</p>\n{}", kConstraints, markup(constraints_of(r)));
   if (!cycles.empty()) out += "<h2>Time of a control cycle</h2>\n" + markup(cycles_of(cycles));
   return html_page(r.benchmark.title, out + provenance_markup(provenance));
 }
