@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "control/plan/plan.h"
@@ -57,6 +58,12 @@ class Controller {
   virtual double max_field() const { return std::numeric_limits<double>::infinity(); }
   /// Where it puts zeros of the field at which the swarm gathers, for these setpoints; m, world frame.
   virtual std::vector<Vec2> nulls(std::span<const Vec2> setpoints) const {
+    (void)setpoints;
+    return {};
+  }
+  /// What it cannot do with its field and its parameters for these setpoints (m, world frame), in sentences;
+  /// a run prints them at its start.
+  virtual std::vector<std::string> notes(std::span<const Vec2> setpoints) const {
     (void)setpoints;
     return {};
   }

@@ -45,7 +45,9 @@ class Mixture final : public TwoSwarmController {
     return (1 + Rotation::kLargestBias) * rotation_.strength() + norm(ambient());
   }
   std::vector<std::string> notes(std::span<const Vec2> setpoints) const override;
-  std::array<double, 2> distances() const override { return distance_; }
+  std::array<double, 2> distances() const override {
+    return resolved_ ? distance_ : std::array{distance_[0], kNone};  // a second swarm needs a second group
+  }
   void archive(Archive& a) override {
     a& rotation_& resolved_& second_target_& distance_[0] & distance_[1];
     for (Followed& f : followed_) a& f;

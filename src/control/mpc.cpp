@@ -6,6 +6,7 @@
 
 #include "control/plan/horizon.h"
 #include "control/plan/obstacles.h"
+#include "control/plan/place_limits.h"
 #include "control/plan/plan_program.h"
 #include "control/plant/linear_design.h"
 #include "control/plant/steering.h"
@@ -48,18 +49,15 @@ class Mpc final : public Controller {
   Command update(const Estimate& e, const Target& target, double dt) override;
   double max_field() const override { return steering_.max_field(); }
   std::optional<Plan> plan() const override;
+  std::vector<std::string> notes(std::span<const Vec2> setpoints) const override {
+    return places_.notes(setpoints);
+  }
   void archive(Archive& a) override;
 
  private:
+  static std::vector<Polygon> polygons(const Params& p, const Frame& frame);
   std::vector<Vec2> targets(Vec2 from, Vec2 to) const;
   void add_errors(PlanProgram& program, const Horizon& h, const std::vector<Vec2>& to) const;
-  /// A place limit: the swarm may move by `room` (m) along `direction`.
-  struct Edge {
-    PlanLimit limit;
-    Vec2 direction;
-    double room = 0;
-  };
-  std::vector<Edge> edges_near(Vec2 at) const;
   double cost_of(const std::vector<Vec2>& plan, const MeanState& from, const std::vector<Vec2>& to) const;
   void move_towards(const std::vector<Vec2>& solution, const MeanState& from, const std::vector<Vec2>& to);
   CoilLimits coil_limits(Vec2 at) const;
@@ -72,8 +70,8 @@ class Mpc final : public Controller {
   ControlContext c_;
   Steering steering_;
   LqrDesign design_;
-  std::vector<Polygon> obstacles_;  ///< world, m
-  std::vector<Vec2> plan_;          ///< commands of the last solution
+  PlaceLimits places_;
+  std::vector<Vec2> plan_;  ///< commands of the last solution
   QuadraticSolution solution_;
   std::vector<double> current_;  ///< A, of the last command
   int frames_ = 0;               ///< since the first plan
@@ -94,6 +92,10 @@ Schema<Mpc::Obstacle> Mpc::Obstacle::schema() {
         if (o.corners_px.size() >= 3) return {};
         return fmt::format("corners_px has {}; a polygon has at least 3 corners",
                            counted(o.corners_px.size(), "corner"));
+      })
+      .check([](const Obstacle& o) -> std::string {
+        if (o.corners_px.size() < 3 || area(o.corners_px) > 0) return {};
+        return "all corners of corners_px are on one line; a polygon has an area";
       });
 }
 
@@ -135,12 +137,14 @@ Schema<Mpc::Params> Mpc::schema() {
             .title = "Distance from obstacles"})
       .add("obstacle", &Params::obstacle,
            {.doc = "Regions that the swarm must not enter: [[controller.obstacle]]", .title = "Obstacles"})
-      .add("max_heat", &Params::max_heat,
-           {.unit = "W",
-            .min = 1e-9,
-            .max = 1e6,
-            .doc = "Largest mean heat of all coils, over about the time of a plan; default: no limit",
-            .title = "Heat of the coils"})
+      .add(
+          "max_heat", &Params::max_heat,
+          {.unit = "W",
+           .min = 1e-9,
+           .max = 1e6,
+           .doc = "Largest mean heat of all coils. The mean over a time W is at most max_heat * (1 + T / W), "
+                  "with the time T of a plan; default: no limit",
+           .title = "Heat of the coils"})
       .include(&Params::motion, MotionParams::schema())
       .validity(
           "The plan is for the mean of the swarm: with a wide swarm, cells enter an obstacle although the "
@@ -149,12 +153,22 @@ Schema<Mpc::Params> Mpc::schema() {
           "cannot.");
 }
 
+std::vector<Polygon> Mpc::polygons(const Params& p, const Frame& frame) {
+  std::vector<Polygon> all;
+  for (const Obstacle& o : p.obstacle) {
+    Polygon& polygon = all.emplace_back();
+    for (const Vec2 corner : o.corners_px) polygon.push_back(frame.world_from_image(corner));
+  }
+  return all;
+}
+
 Mpc::Mpc(const Params& p, const ControlContext& c)
     : p_(p),
       c_(c),
       steering_(p.motion, p.max_output, c),
       design_(lqr_design(linear_plant(steering_.plant(), steering_.strongest()), move_time(),
                          {.error = p.error_px * c.scale.m_per_px})),
+      places_(c, p.margin_px * c.scale.m_per_px, p.clearance_px * c.scale.m_per_px, polygons(p, c.frame)),
       plan_(std::size_t(p.moves)),
       current_(c.field->coils(), 0.0) {
   bool heats = false;
@@ -164,17 +178,13 @@ Mpc::Mpc(const Params& p, const ControlContext& c)
         Errc::usage, "controller.max_heat",
         "the heat is not known, because no coil of the field has a resistance; set resistance in each "
         "[[coil]] of the coil system, or remove max_heat");
-  for (const Obstacle& o : p.obstacle) {
-    Polygon polygon;
-    for (const Vec2 corner : o.corners_px) polygon.push_back(c.frame.world_from_image(corner));
-    obstacles_.push_back(std::move(polygon));
-  }
 }
 
 // Where the swarm is to be after each move: the setpoint, or on a path around the obstacles to it.
 std::vector<Vec2> Mpc::targets(Vec2 from, Vec2 to) const {
   std::vector<Vec2> at(plan_.size(), to);
-  const std::vector<Vec2> path = shortest_path(obstacles_, from, to, p_.clearance_px * c_.scale.m_per_px);
+  const std::vector<Vec2> path =
+      shortest_path(places_.obstacles(), from, to, p_.clearance_px * c_.scale.m_per_px);
   if (path.size() == 1) return at;
   const LinearPlant plant = linear_plant(steering_.plant(), steering_.strongest());
   const double step = (plant.immediate ? plant.gain : steering_.plant().speed) * move_time();
@@ -227,28 +237,6 @@ CoilLimits Mpc::coil_limits(Vec2 at) const {
   return limits;
 }
 
-// The limits of places near a position: the edges of the view and of the drop, and the obstacles.
-std::vector<Mpc::Edge> Mpc::edges_near(Vec2 at) const {
-  const double margin = p_.margin_px * c_.scale.m_per_px, clearance = p_.clearance_px * c_.scale.m_per_px;
-  const Vec2 a = c_.frame.world_from_image({0, 0});
-  const Vec2 b = c_.frame.world_from_image({double(c_.frame.width - 1), double(c_.frame.height - 1)});
-  std::vector<Edge> edges{{PlanLimit::view, {1, 0}, std::max(a.x, b.x) - at.x - margin},
-                          {PlanLimit::view, {-1, 0}, at.x - std::min(a.x, b.x) - margin},
-                          {PlanLimit::view, {0, 1}, std::max(a.y, b.y) - at.y - margin},
-                          {PlanLimit::view, {0, -1}, at.y - std::min(a.y, b.y) - margin}};
-  if (c_.drop) {
-    const Vec2 out = at - c_.drop->centre;
-    const double distance = norm(out);
-    if (distance > c_.drop->radius / 2)
-      edges.push_back({PlanLimit::drop, (1 / distance) * out, c_.drop->radius - margin - distance});
-  }
-  for (const Polygon& polygon : obstacles_) {
-    const NearestEdge edge = nearest_edge(polygon, at);
-    edges.push_back({PlanLimit::obstacle, -1.0 * edge.outward, edge.distance - clearance});
-  }
-  return edges;
-}
-
 // The cost of a plan without linearisation.
 double Mpc::cost_of(const std::vector<Vec2>& plan, const MeanState& from, const std::vector<Vec2>& to) const {
   const std::vector<MeanState> states =
@@ -265,7 +253,7 @@ double Mpc::cost_of(const std::vector<Vec2>& plan, const MeanState& from, const 
     else
       cost += design_.cost * dot(e, e) + 2 * design_.cost_cross * dot(e, s.velocity) +
               design_.cost_velocity * dot(s.velocity, s.velocity);
-    for (const Edge& edge : edges_near(s.position))
+    for (const PlaceLimit& edge : places_.near(s.position))
       if (edge.room < 0) cost += kPlaceWeight * worth * edge.room * edge.room;
   }
   return cost;
@@ -298,7 +286,7 @@ Vec2 Mpc::planned(const MeanState& s, Vec2 to) {
   program.add_effort(p_.change);
   program.limit(coil_limits(s.position));
   for (std::size_t j = 1; j < h.states.size(); ++j)
-    for (const Edge& edge : edges_near(h.states[j].position))
+    for (const PlaceLimit& edge : places_.near(h.states[j].position))
       program.keep(edge.limit, h.by_command[j].topRows(2), edge.direction, edge.room,
                    p_.error_px * c_.scale.m_per_px, kPlaceWeight);
   solution_ = solve(program.take(), solution_, kIterations);

@@ -1,14 +1,20 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "control/controller.h"
 #include "control/plan/curve.h"
+#include "core/error.h"
 
 namespace faba {
 namespace {
 
-constexpr double kStepPx = 2;         // between points of a curve
-constexpr std::size_t kPoints = 100;  // at least, so that the setpoints are those of a moving target
+constexpr double kStepPx = 2;          // between points of a curve
+constexpr double kLookAheadPx = 15;    // default
+constexpr double kMostAhead = 0.25;    // of a lap
+constexpr double kSearched = 1.0 / 3;  // of a lap: the two passes of a figure of eight are half a lap apart
+constexpr std::size_t kPoints = 100;   // at least, so that the setpoints are those of a moving target
 
 /// A setpoint that moves along a curve ahead of the swarm (pure pursuit, theory F3): it is the point
 /// `look_ahead_px` further along the curve than the point nearest to the swarm, so that it waits for a slow
@@ -23,7 +29,7 @@ class ReferencePath final : public Reference {
     std::optional<Vec2> centre_px;
     double size_px = 200;
     std::string text = "FABA";
-    double look_ahead_px = 15;
+    std::optional<double> look_ahead_px;
     int laps = 1;
   };
   static Schema<Params> schema();
@@ -40,8 +46,8 @@ class ReferencePath final : public Reference {
   std::vector<Vec2> curve_px(const Params& p, const Frame& frame) const;
 
   Curve curve_;  ///< of all laps, world frame, m
+  double lap_;   ///< length of a lap, m
   double look_ahead_;
-  double lap_;  ///< length of a lap, m
   double progress_ = 0;
   bool started_ = false, finished_ = false;
 };
@@ -71,9 +77,8 @@ Schema<ReferencePath::Params> ReferencePath::schema() {
            {.unit = "px",
             .min = 0.1,
             .max = 1e4,
-            .doc =
-                "Distance along the curve from the point nearest to the swarm to the setpoint; a longer one "
-                "is faster and cuts corners",
+            .doc = "Distance along the curve from the point nearest to the swarm to the setpoint, at most a "
+                   "quarter of the curve; a longer one is faster and cuts corners; default: 15 px",
             .source = "assumed",
             .title = "Look-ahead distance"})
       .add("laps", &Params::laps,
@@ -131,14 +136,26 @@ std::vector<Vec2> ReferencePath::curve_px(const Params& p, const Frame& frame) c
 
 ReferencePath::ReferencePath(const Params& p, const ControlContext& c)
     : curve_(in_world(curve_px(p, c.frame), c.frame, p.laps)),
-      look_ahead_(p.look_ahead_px * c.scale.m_per_px),
-      lap_(Curve(in_world(curve_px(p, c.frame), c.frame, 1)).length()) {}
+      lap_(Curve(in_world(curve_px(p, c.frame), c.frame, 1)).length()),
+      look_ahead_(std::min(p.look_ahead_px.value_or(kLookAheadPx) * c.scale.m_per_px, kMostAhead * lap_)) {
+  if (!(lap_ > 0))
+    throw Error(Errc::usage, "reference.points_px",
+                "all points are equal; a curve needs at least two different points");
+  const double most = kMostAhead * lap_ / c.scale.m_per_px;
+  if (p.look_ahead_px.value_or(0) > most)
+    throw Error(Errc::usage, "reference.look_ahead_px",
+                fmt::format("{:g} px is too long for a curve of {:.4g} px; it must be at most {:.4g} px, a "
+                            "quarter of the curve; reduce it, or enlarge the curve",
+                            *p.look_ahead_px, lap_ / c.scale.m_per_px, most));
+}
 
 Target ReferencePath::update(const Estimate& e) {
   if (e.visible > 0 && std::isfinite(norm(e.centroid))) {
     started_ = started_ || norm(e.centroid - curve_.points().front()) <= look_ahead_;
-    // Only the next part is searched: a curve that crosses itself is followed in its order.
-    if (started_) progress_ = curve_.nearest(e.centroid, progress_, progress_ + 3 * look_ahead_);
+    // Only the next part is searched: a curve that crosses itself, or returns to its start, is followed in
+    // its order.
+    const double part = std::min(3 * look_ahead_, kSearched * lap_);
+    if (started_) progress_ = curve_.nearest(e.centroid, progress_, progress_ + part);
     finished_ = started_ && curve_.length() - progress_ <= look_ahead_ / 2;
   }
   const double s = started_ ? progress_ + look_ahead_ : 0;

@@ -2,9 +2,6 @@
 #include <array>
 #include <cmath>
 #include <optional>
-#include <span>
-#include <string>
-#include <vector>
 
 #include "control/controller.h"
 
@@ -13,9 +10,6 @@ namespace faba {
 /// A controller that steers two swarms, for which the estimator must give several groups.
 class TwoSwarmController : public Controller {
  public:
-  /// What it cannot do with its field, for the setpoints of the first swarm (m, world); a run prints these
-  /// texts at its start.
-  virtual std::vector<std::string> notes(std::span<const Vec2> setpoints) const = 0;
   /// Distances of the first and the second swarm from their setpoints at the last update, m, as it follows
   /// them; NaN before the first update and without a setpoint.
   virtual std::array<double, 2> distances() const = 0;

@@ -2,6 +2,7 @@
 // combination of their positions in a uniform field (theory F1).
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 
 #include "app/run/notes.h"
@@ -150,6 +151,13 @@ TEST_CASE("mixture: a note states when the field cannot steer both, and what is 
   const std::string diagonal =
       notes({.field = kFour, .controller = "second_px = [450, 430]\nrotating = '0.1 mT'"});
   CHECK(diagonal.find("controller:") == std::string::npos);
+  std::string alone = scene({.field = kEight});
+  alone.erase(alone.rfind("[[swarm]]"));
+  const TestSwarm single(alone);
+  const std::vector<std::string> stated = scenario_notes(single.scenario, single.simulation, "/tmp");
+  CHECK(std::any_of(stated.begin(), stated.end(), [](const std::string& n) {
+    return n.find("steers two swarms, but the scenario has one [[swarm]]") != std::string::npos;
+  }));
   const std::string one = notes({.field = kEight, .estimator = "'visible'"});
   CHECK(one.find("it steers two swarms, but estimator \"visible\" does not separate them") !=
         std::string::npos);

@@ -116,6 +116,46 @@ TEST_CASE("mpc: currents, their rates and the heat stay within the limits") {
   }
 }
 
+TEST_CASE("mpc: keeps its distance from the edge of a drop, also a large one") {
+  ControlContext c = context(kDipole);
+  c.drop = Disc{{}, 220e-6};
+  for (const double margin : {20.0, 150.0}) {
+    CAPTURE(margin);
+    const auto mpc = controller("type = 'mpc'\nmargin_px = " + std::to_string(margin), c);
+    const Vec2 outside{(220 - margin + 30) * kPx, 0};
+    double farthest = 0;
+    MeanState s{};
+    for (int k = 0; k < 600; ++k) {
+      const Command command = mpc->update(at(s), {outside, 0, false}, kPeriod);
+      s = advanced(c.motion, 1, s, field_along(c, s.position, command), kPeriod);
+      farthest = std::max(farthest, norm(s.position));
+    }
+    // A violation by error_px = 2 px costs 100 times an error of that size: of 30 px it is worth 0.3 px, and
+    // a swarm that arrives with its inertia passes the limit by less than error_px.
+    CHECK(farthest < (220 - margin + 2) * kPx);
+    CHECK(norm(s.position) > (220 - margin - 2) * kPx);
+    const std::vector<Vec2> setpoints{{}, outside};
+    const std::vector<std::string> notes = mpc->notes(setpoints);
+    REQUIRE(notes.size() == 1);
+    CHECK(notes[0].find("keeps the swarm away from the edge, and stops it 30 px before the setpoint") !=
+          std::string::npos);
+  }
+  CHECK_THROWS_AS(controller("type = 'mpc'\nmargin_px = 225", c), Error);
+}
+
+TEST_CASE("mpc: a setpoint in an obstacle is noted, and a polygon without area is refused") {
+  const ControlContext c = context(kDipole);
+  const std::string keys = "type = 'mpc'\nclearance_px = 10\n[[p.obstacle]]\ncorners_px = ";
+  const auto mpc = controller(keys + "[[300, 200], [340, 200], [340, 300], [300, 300]]", c);
+  // The centre of the view, (319.5, 239.5) px, is 19.5 px from the nearest side.
+  const std::vector<Vec2> centre{{}};
+  const std::vector<std::string> notes = mpc->notes(centre);
+  REQUIRE(notes.size() == 1);
+  CHECK(notes[0].find("away from an obstacle, and stops it 29.5 px before the setpoint") !=
+        std::string::npos);
+  CHECK_THROWS_AS(controller(keys + "[[300, 200], [340, 200], [380, 200]]", c), Error);
+}
+
 TEST_CASE("mpc: goes around an obstacle and keeps its distance") {
   const ControlContext c = context(kDipole);
   const std::string obstacle =

@@ -92,6 +92,34 @@ TEST_CASE("path: without cells the setpoint stays; a checkpoint restores it; wro
   CHECK(b->update(at({170, 170})).position == a->update(at({170, 170})).position);
 
   CHECK_THROWS_AS(path("points_px = [[100, 100]]"), Error);
+  CHECK_THROWS_AS(path("points_px = [[100, 100], [100, 100]]"), Error);
   CHECK_THROWS_AS(path("shape = 'text'\ntext = ''"), Error);
   CHECK_THROWS_AS(path("shape = 'text'\ntext = 'a?'"), Error);
+}
+
+TEST_CASE(
+    "path: with the longest look-ahead distance no part of a closed curve is left out; a longer one is "
+    "refused") {
+  for (const char* shape : {"figure_eight", "circle"}) {
+    CAPTURE(shape);
+    const std::string keys = std::string("shape = '") + shape + "'\nsize_px = 200\nlook_ahead_px = ";
+    const std::vector<Vec2> points = std::string_view(shape) == "circle"
+                                         ? circle({319.5, 239.5}, 200, 1)
+                                         : figure_eight({319.5, 239.5}, 200, 1);
+    const Curve curve(points);
+    const double most = std::floor(curve.length() / 4);
+    CHECK_THROWS_AS(path(keys + std::to_string(most + 2)), Error);
+    const auto r = path(keys + std::to_string(most - 1));
+    // A swarm on the curve: the progress is the length that it has covered, until half a look-ahead distance
+    // is left.
+    for (double s = 0; s < curve.length() - most / 2 - 2; s += 1) {
+      const Target t = r->update(at(curve.at(s)));
+      REQUIRE_FALSE(t.finished);
+      REQUIRE(*r->path_done() == doctest::Approx(s / curve.length()).epsilon(0.01).scale(1));
+    }
+    for (double s = curve.length() - most / 2; s < curve.length(); s += 1) r->update(at(curve.at(s)));
+    CHECK(r->path_done() == 1);
+  }
+  // A short curve has a shorter default.
+  CHECK_NOTHROW(path("shape = 'circle'\nsize_px = 10"));
 }

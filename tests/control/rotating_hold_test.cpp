@@ -167,6 +167,16 @@ TEST_CASE("rotating_hold: what the cells, the camera or the coils cannot follow 
   const std::string coils = refusal({.rotating = 0.09}, c);
   CHECK(coils.find("controller.rotating: 90 mT is too large for the coils; it must be at most 76.9 mT") !=
         std::string::npos);
+  // A current of 20 mA at 5 Hz changes by 2 x 20 mA x sin(pi 5 / 60) = 10.35 mA per frame of 1/60 s: 0.621
+  // A/s.
+  c.max_slew = 0.63;
+  CHECK(refusal({.rotating = 0.02, .frequency = 5}, c) == "");
+  c.max_slew = 0.61;
+  const std::string slow = refusal({.rotating = 0.02, .frequency = 5}, c);
+  CHECK(slow.find("5 Hz in 20 mT is too fast for the coils, whose currents change by at most 0.61 A/s") !=
+        std::string::npos);
+  CHECK(slow.find("between -4.91 and 4.91 Hz") != std::string::npos);
+  c.max_slew = {};
   c.motion.turning = 0;
   CHECK(refusal({.rotating = 0.02}, c).find("controller.turning: is 0") != std::string::npos);
   c.max_current.assign(2, 0.0);

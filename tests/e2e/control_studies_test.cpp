@@ -38,6 +38,18 @@ TEST_CASE("design: gains, poles and margins of the regulator, and advice for oth
   CHECK(j["phase_margin_deg"].get<double>() < 65.5);
   CHECK(j["gain_margin"].get<double>() > 1);
   CHECK(j["plant"]["acceleration_um_per_s2"].get<double>() > 0);
+  // The design is linear: what limits the scenario is a note.
+  const std::string lqr = "design '" FABA_SCENES "/bench.toml' --set 'controller={type=\"lqr\"}' --set ";
+  const auto idle = json_in(f.path, lqr + "'limits.max_current=\"0 A\"'");
+  REQUIRE(idle["notes"].size() == 1);
+  CHECK(idle["notes"][0].get<std::string>().find("there is no current in the coils") != std::string::npos);
+  const auto two = json_in(f.path, lqr + "'field.file=\"" FABA_SCENES "/../rigs/thesis-two-coils.toml\"'");
+  REQUIRE(two["notes"].size() == 1);
+  CHECK(two["notes"][0].get<std::string>().find("nearly along one line") != std::string::npos);
+  CHECK(j["notes"].empty());
+  const Called old = faba_in(f.path, lqr + "camera.delay_frames=1000");
+  CHECK(old.exit == 2);
+  CHECK(old.err.find("more than limits.max_frame_age") != std::string::npos);
   const Called c = faba_in(f.path, "design '" FABA_SCENES "/bench.toml'");
   CHECK(c.exit == 2);
   CHECK(c.err.find("add --set 'controller={type=\"lqr\"}'") != std::string::npos);
@@ -89,7 +101,9 @@ TEST_CASE("tune: refuses what it cannot tune") {
   refuses("--range gian=0.1..1", "did you mean \"gain\"?");
   refuses("--range 'lead=1 m..2 m'", "time");
   refuses("--metric speed", "not a metric of controllers");
-  refuses("--controller gradient", "no parameter with a range for tuning");
+  refuses("--controller gradient", "has no number that can be tuned");
+  refuses("--metric coil_heat_w", "no coil of the field has a resistance");
+  refuses("--metric keep_out_cells", "cases of `faba benchmark-control` only");
   refuses("--controller nothing", "unknown controller");
   CHECK_FALSE(std::filesystem::exists(f.path / "runs"));
 }

@@ -6,106 +6,13 @@
 #include <cmath>
 #include <limits>
 
-#include "control/two_swarms.h"
+#include "app/run/steering_notes.h"
 #include "core/counted.h"
-#include "field/null.h"
 
 namespace faba {
 namespace {
 
 using Notes = std::vector<std::string>;
-
-constexpr std::size_t kListedSetpoints = 50;  // more are a curve, for which one note is enough
-
-void note_setpoints(const Scenario& s, const Simulation& simulation, Notes& notes) {
-  const Arena& arena = *simulation.world().parts().arena;
-  const std::vector<Vec2> all = simulation.reference().setpoints();
-  std::size_t outside = 0;
-  for (const Vec2 at : all) {
-    const Vec2 px = simulation.frame().image_from_world(at);
-    const bool reachable = arena.depth(at) >= 0;
-    if (reachable && simulation.frame().in_view(px)) continue;
-    ++outside;
-    if (all.size() > kListedSetpoints) continue;
-    notes.push_back(
-        reachable
-            ? fmt::format("reference: the setpoint ({:g}, {:g}) px is outside the camera view", px.x, px.y)
-            : fmt::format(
-                  "reference: the setpoint ({:g}, {:g}) px is outside the {}; the swarm cannot reach it",
-                  px.x, px.y, s.arena.type));
-  }
-  if (outside > 0 && all.size() > kListedSetpoints)
-    notes.push_back(fmt::format(
-        "reference: {:.0f} % of the curve is outside the camera view or the {}; the swarm cannot be "
-        "followed or cannot go there",
-        100.0 * double(outside) / double(all.size()), s.arena.type));
-}
-
-void note_polarities(const Scenario& s, Notes& notes) {
-  const bool north = s.polarity() > 0;
-  for (std::size_t i = 0; i < s.swarms.size(); ++i) {
-    if ((s.swarms[i].params.polarity == Swarm::Polarity::north) == north) continue;
-    notes.push_back(fmt::format(
-        "swarm[{0}] is {1}-seeking, but the controller steers the {2}-seeking cells; the field drives "
-        "swarm[{0}] away from the setpoint",
-        i, north ? "south" : "north", north ? "north" : "south"));
-  }
-}
-
-std::string in_px(Vec2 px) { return fmt::format("({:.0f}, {:.0f}) px", px.x, px.y); }
-
-constexpr const char* kSaddle =
-    "a saddle: a field without divergence that attracts cells along one direction drives them away along the "
-    "other. Four coils can trap along both directions, as in rigs/thesis-four-coils.toml (theory C6)";
-
-// Whether the zeros of the field that the controller produces are reachable and trap cells.
-void note_traps(const Scenario& s, const Simulation& simulation, Notes& notes) {
-  const Field& field = *simulation.world().parts().field;
-  const std::vector<Vec2> nulls = simulation.controller().nulls(simulation.reference().setpoints());
-  if (nulls.empty()) return;
-  if (!field.varies()) {
-    notes.push_back(fmt::format(
-        "controller: the coils of field \"{}\" have no gradient and cannot produce a zero; use a field with "
-        "single coils, as in rigs/thesis-four-coils.toml",
-        s.field.type));
-    return;
-  }
-  const std::vector<double> limits = field.max_currents(s.limits.max_current);
-  for (const Vec2 at : nulls) {
-    const FieldNull n = null_at(field, at, s.polarity(), limits);
-    if (n.reachable && !n.saddle) continue;
-    const std::string position = in_px(simulation.frame().image_from_world(at));
-    const std::string note =
-        n.reachable ? fmt::format("controller: the zero of the field at {} is {}", position, kSaddle)
-                    : fmt::format(
-                          "controller: these coils cannot produce a zero of the field at {}; the swarm "
-                          "does not gather there",
-                          position);
-    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
-  }
-}
-
-// Zero of the field near the sample for currents given per coil, and its effect on cells.
-void note_currents(const Scenario& s, const Simulation& simulation, Notes& notes) {
-  const WorldParts& parts = simulation.world().parts();
-  for (const std::vector<double>& current : simulation.controller().given_currents()) {
-    const Vec2 at = find_null(*parts.field, current, {});
-    if (!std::isfinite(at.x) || parts.field->clearance({at.x, at.y, 0}) < 1e-4) continue;
-    const std::string position = in_px(simulation.frame().image_from_world(at));
-    const double outside = -parts.arena->depth(at);
-    const NullGradient g = null_gradient(*parts.field, current, at);
-    const bool north = s.polarity() > 0;
-    const bool traps = north ? g[1] < 0 : g[0] > 0, repels = north ? g[0] > 0 : g[1] < 0;
-    notes.push_back(fmt::format(
-        "controller: with these currents the field is zero at {}{}; the zero is {}", position,
-        outside > 0
-            ? fmt::format(", {:.2g} mm outside the sample, so the swarm moves to one side", outside * 1e3)
-            : "",
-        traps    ? "a trap"
-        : repels ? "a source, from which cells move away in all directions"
-                 : kSaddle));
-  }
-}
 
 /// Largest field of an experiment, T, and what limits it.
 struct MaxField {
@@ -222,9 +129,9 @@ void note_view(const Simulation& simulation, Notes& notes) {
                      std::clamp(f.centre_image.y, -0.5, f.height - 0.5)};
   if (world.parts().arena->depth(f.world_from_image(nearest)) < 0) {
     notes.push_back(fmt::format(
-        "arena: its centre is at {}, and no part of it is in the camera view of {} x {} px; move the centre "
-        "towards the view, or increase its size",
-        in_px(f.centre_image), f.width, f.height));
+        "arena: its centre is at ({:.0f}, {:.0f}) px, and no part of it is in the camera view of {} x {} px; "
+        "move the centre towards the view, or increase its size",
+        f.centre_image.x, f.centre_image.y, f.width, f.height));
     return;
   }
   const auto x = world.state().agents["x"], y = world.state().agents["y"];
@@ -260,18 +167,6 @@ void note_parts(const Scenario& s, Notes& notes) {
     if (s.events[i].model) add(fmt::format("event[{}].model", i), *s.events[i].model);
     if (s.events[i].controller) add(fmt::format("event[{}].controller", i), *s.events[i].controller);
   }
-}
-
-// Two swarms that the field cannot steer independently, or that the estimator does not separate.
-void note_two_swarms(const Scenario& s, const Simulation& simulation, const TwoSwarmController& controller,
-                     Notes& notes) {
-  for (const std::string& text : controller.notes(simulation.reference().setpoints()))
-    notes.push_back(fmt::format("controller: {}", text));
-  if (s.estimator.has(Trait::needs_positions) || s.estimator.has(Trait::needs_pictures))
-    notes.push_back(
-        fmt::format("controller: it steers two swarms, but estimator \"{}\" does not separate them; use "
-                    "the estimator of groups",
-                    s.estimator.type));
 }
 
 void note_without_effect(const Scenario& s, const Simulation& simulation, Notes& notes) {
@@ -377,21 +272,13 @@ std::vector<std::string> scenario_notes(const Scenario& s, const Simulation& sim
   note_weak_field(s, simulation, notes);
   note_delay(s, notes);
   note_view(simulation, notes);
-  if (s.steers()) {
-    note_setpoints(s, simulation, notes);
-    if (const auto* two = dynamic_cast<const TwoSwarmController*>(&simulation.controller()))
-      note_two_swarms(s, simulation, *two, notes);
-    else
-      note_polarities(s, notes);
-  }
-  note_traps(s, simulation, notes);
+  add_steering_notes(s, simulation, notes);
   if (const auto& table = simulation.world().parts().table; table && table->error() > FieldTable::kTolerance)
     notes.push_back(
         fmt::format("library: the error of the field on its grid is up to {:.1g} of the maximum field of a "
                     "coil; a smaller "
                     "--spacing reduces it",
                     table->error()));
-  note_currents(s, simulation, notes);
   note_size(s, simulation.world().state().agents.size(), out, notes);
   return notes;
 }

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 namespace faba {
 namespace {
 
@@ -17,6 +19,13 @@ void check_control(const Node& root, const Scenario& s, const Parts& parts) {
   const auto suitable_estimators = [&] {
     return quoted(parts.estimator.names_without({Trait::no_estimate, unsuitable}));
   };
+  const std::vector<std::string> idle = parts.estimator.names_with({Trait::no_estimate});
+  if (s.steers() && s.estimator.has(Trait::no_estimate) &&
+      std::find(idle.begin(), idle.end(), s.estimator.type) == idle.end())
+    throw Error(
+        Errc::usage, root.where("estimator.source"),
+        fmt::format("estimator \"{}\" gets no estimate from its source; remove source, or choose one of {}",
+                    s.estimator.type, suitable_estimators()));
   if (s.steers() && s.estimator.has(Trait::no_estimate))
     throw Error(Errc::usage, root.where("estimator"),
                 fmt::format("controller {} needs an estimate, but estimator \"{}\" gives none; use one of {}",

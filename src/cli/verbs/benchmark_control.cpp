@@ -34,10 +34,15 @@ void summary(const ControlBenchmarkResult& r) {
     for (const Combination& c : r.cases[i].combinations) {
       const auto it = c.metrics.find(m.key);
       if (c.excess_over_best || it == c.metrics.end()) continue;
+      const auto inside = c.metrics.find("keep_out_fraction");
       fmt::print(
-          "{:<24} delay {}: {} {} {}, {}\n", one.name, c.delay,
+          "{:<24} delay {}: {} {} {}, {}{}\n", one.name, c.delay,
           with_uncertainty(m.shown * it->second.mean, m.shown * (it->second.mean - it->second.ci95[0])),
-          m.unit, m.name, c.controller);
+          m.unit, m.name, c.controller,
+          inside != c.metrics.end() && inside->second.mean > 0
+              ? fmt::format("; its mean was in a forbidden region in {:.3g} % of the frames",
+                            100 * inside->second.mean)
+              : "");
     }
   }
 }

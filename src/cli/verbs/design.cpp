@@ -17,6 +17,8 @@ int design(const SceneOptions& v, const Common& c) {
   const Scenario s = read_scenario(read_scene(v), builtin_parts());
   const LoopDesign found = loop_design(s);
   if (c.json) print_json(design_json(found), provenance_of(c, {v.scene}));
+  if (!c.json && !c.quiet)
+    for (const std::string& note : found.notes) print_stderr("faba: note: " + note);
   if (!c.json && !c.quiet) fmt::print("{}", design_text(found));
   return 0;
 }

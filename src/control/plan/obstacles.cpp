@@ -59,6 +59,8 @@ bool free(std::span<const Polygon> polygons, Vec2 a, Vec2 b) {
 
 }  // namespace
 
+double area(const Polygon& polygon) { return std::fabs(signed_area(polygon)); }
+
 NearestEdge nearest_edge(const Polygon& polygon, Vec2 p) {
   NearestEdge nearest{.distance = std::numeric_limits<double>::infinity()};
   Vec2 along;

@@ -9,6 +9,8 @@ namespace faba {
 /// A region that the swarm must not enter; corners in order, of either direction, world frame, m.
 using Polygon = std::vector<Vec2>;
 
+double area(const Polygon& polygon);  ///< m^2, of a polygon that does not cross itself
+
 /// The point of a polygon's boundary nearest to a point.
 struct NearestEdge {
   Vec2 at = {};

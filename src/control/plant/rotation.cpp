@@ -68,7 +68,20 @@ double step_out(const SwarmMotion& m, double strength) {
   return m.turning * strength / (2 * kPi);
 }
 
-double checked_frequency(const RotationParams& p, const SwarmMotion& m, double strength, double period) {
+/// The largest frequency, Hz, at which the change of every current from frame to frame is within the slew
+/// rate.
+double slewed(const ControlContext& c, double strength) {
+  if (!c.max_slew) return std::numeric_limits<double>::infinity();
+  const std::vector<double> x = allocate(*c.field, {}, {1, 0}), y = allocate(*c.field, {}, {0, 1});
+  double amplitude = 0;
+  for (std::size_t k = 0; k < x.size(); ++k)
+    amplitude = std::max(amplitude, strength * norm(Vec2{x[k], y[k]}));
+  const double change = *c.max_slew * c.frame_period;
+  return change < 2 * amplitude ? std::asin(change / (2 * amplitude)) / (kPi * c.frame_period)
+                                : std::numeric_limits<double>::infinity();
+}
+
+double locked_frequency(const RotationParams& p, const SwarmMotion& m, double strength, double period) {
   const double locked = step_out(m, strength), shown = 1 / (kFramesPerTurn * period);
   if (!(locked > 0))
     throw Error(Errc::usage, "controller.turning",
@@ -88,6 +101,18 @@ double checked_frequency(const RotationParams& p, const SwarmMotion& m, double s
                             "it, or increase the frame rate",
                             *p.frequency, 1 / period, shown, shown, kFramesPerTurn));
   return *p.frequency;
+}
+
+double checked_frequency(const RotationParams& p, const SwarmMotion& m, double strength,
+                         const ControlContext& c) {
+  const double frequency = locked_frequency(p, m, strength, c.frame_period), most = slewed(c, strength);
+  if (std::fabs(frequency) <= most) return frequency;
+  throw Error(
+      Errc::usage, "controller.frequency",
+      fmt::format("{:.3g} Hz in {:.3g} mT is too fast for the coils, whose currents change by at most "
+                  "{:g} A/s; it must be between -{:.3g} and {:.3g} Hz; reduce it or "
+                  "controller.rotating, or increase limits.max_slew",
+                  frequency, strength * 1e3, *c.max_slew, most, most));
 }
 
 }  // namespace
@@ -125,7 +150,7 @@ Rotation::Rotation(const RotationParams& p, double strength, const SwarmMotion& 
                    const ControlContext& c)
     : strength_(checked_strength(
           p, motion.response == Response::proportional ? 5 * c.scale.field_unit : strength, c)),
-      rate_(2 * kPi * checked_frequency(p, motion, strength_, c.frame_period)),
+      rate_(2 * kPi * checked_frequency(p, motion, strength_, c)),
       period_(c.frame_period) {
   effective_ = strength_ * harmonic(std::fabs(rate_) * period_ / 2);
 }

@@ -158,8 +158,8 @@ Trash::Item Trash::undo(int id) {
     if (is_there(place_of(m.name))) throw used(m.name);
   std::vector<const Moved*> done;
   const auto back_to_trash = [&] {
-    for (auto m = done.rbegin(); m != done.rend(); ++m)
-      rename_new(place_of((*m)->name), (*m)->kept, (*m)->name);
+    for (; !done.empty(); done.pop_back())
+      rename_new(place_of(done.back()->name), done.back()->kept, done.back()->name);
   };
   for (const Moved& m : it->moved) {
     const fs::path place = place_of(m.name);

@@ -7,6 +7,7 @@
 
 #include "app/scenario/file_kind.h"
 #include "core/hash.h"
+#include "core/schema.h"
 #include "core/statistics.h"
 #include "study/steering/controller_trials.h"
 #include "study/steering/metric_list.h"
@@ -103,10 +104,11 @@ void check_case(const BenchmarkCase& c, const Node& n) {
     if (std::none_of(c.study.controllers.begin(), c.study.controllers.end(),
                      [&](const Variant& v) { return v.name == name; }))
       n.fail(fmt::format("baseline: \"{}\" is not a controller of this case", name));
-  const std::vector<const MetricInfo*> metrics = compared_metrics();
-  if (std::none_of(metrics.begin(), metrics.end(),
-                   [&](const MetricInfo* m) { return m->key == c.study.ranked_by; }))
-    n.fail(fmt::format("ranked_by: \"{}\" is not a metric that is compared", c.study.ranked_by));
+  std::vector<std::string> metrics;
+  for (const MetricInfo* m : compared_metrics()) metrics.emplace_back(m->key);
+  if (std::find(metrics.begin(), metrics.end(), c.study.ranked_by) == metrics.end())
+    n.fail(fmt::format("ranked_by: \"{}\" is not a metric that is compared{}", c.study.ranked_by,
+                       suggestion(c.study.ranked_by, metrics)));
   for (const auto& polygon : c.study.keep_out_px)
     if (polygon.size() < 3) n.fail("keep_out: a polygon has at least 3 corners");
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/run/notes.h"
 #include "app/run/simulation.h"
 
 namespace faba {
@@ -34,7 +35,18 @@ LoopDesign loop_design(const Scenario& s) {
   if (!(d->position > 0))
     throw Error(Errc::usage, "swarm[0].model",
                 "no field moves this swarm, so that there is no design; use cells that swim and respond");
-  LoopDesign out{*d, int(std::lround(simulation.control().delay_frames)), {}, {}};
+  const double age = s.camera.delay_frames * s.frame_period();
+  if (age > s.limits.max_frame_age)
+    throw Error(
+        Errc::usage, "camera.delay_frames",
+        fmt::format("{}: every picture is {:.3g} s old, more than limits.max_frame_age = {:g} s, and all "
+                    "currents are zero; reduce the delay",
+                    s.camera.delay_frames, age, s.limits.max_frame_age));
+  LoopDesign out{*d,
+                 int(std::lround(simulation.control().delay_frames)),
+                 {},
+                 {},
+                 scenario_notes(s, simulation, std::filesystem::current_path())};
   out.margins = margins_of(*d, out.delay);
   for (const std::complex<double> pole : d->poles) out.modes.push_back(mode_of(pole, d->period));
   return out;

@@ -1,4 +1,5 @@
 #pragma once
+#include <string>
 #include <vector>
 
 #include "app/scenario/scenario.h"
@@ -20,8 +21,10 @@ struct LoopDesign {
   int delay = 0;  ///< frames
   Margins margins;
   std::vector<LoopMode> modes;
+  std::vector<std::string> notes;  ///< of the scenario: the design is linear and has no limits
 };
-/// Throws Error(usage) if the controller has no design, or no field moves the swarm.
+/// Throws Error(usage) if the controller has no design, no field moves the swarm, or its pictures are too
+/// old.
 LoopDesign loop_design(const Scenario& s);
 
 }  // namespace faba

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "app/run/notes.h"
 #include "app/run/simulation.h"
 #include "app/scenario/parts.h"
 #include "app/scenario/read_scenario.h"
@@ -77,12 +78,24 @@ std::vector<TunedParameter> all_parameters(const Json& properties) {
   return all;
 }
 
-void check_metric(const std::string& key) {
+void check_metric(const std::string& key, const Field& field) {
   std::vector<std::string> known;
   for (const MetricInfo* m : compared_metrics()) known.push_back(m->key);
   if (std::find(known.begin(), known.end(), key) == known.end())
     throw Error(Errc::usage, "--metric",
                 fmt::format("\"{}\" is not a metric of controllers{}", key, suggestion(key, known)));
+  if (key.starts_with("keep_out"))
+    throw Error(Errc::usage, "--metric",
+                fmt::format("{} is measured in the cases of `faba benchmark-control` only, which have "
+                            "[[case.keep_out]]; choose another metric",
+                            key));
+  if (key != "coil_heat_w") return;
+  for (std::size_t k = 0; k < field.coils(); ++k)
+    if (field.circuit(k).resistance > 0) return;
+  throw Error(
+      Errc::usage, "--metric",
+      "coil_heat_w is not known, because no coil of the field has a resistance; set resistance in each "
+      "[[coil]] of the coil system, or choose another metric");
 }
 
 }  // namespace
@@ -97,15 +110,22 @@ TuningStudy new_tuning(const Document& scene, const TuningChoice& choice) {
   const Scenario s = read_scenario(study.scene, parts);
   study.controller = s.controller.type;
   Pool pool(1);
-  const std::size_t setpoints = setpoint_count(Simulation(s, 1, pool).reference());
+  const Simulation check(s, 1, pool);
+  const std::size_t setpoints = setpoint_count(check.reference());
   if (setpoints == 0)
     throw Error(Errc::usage, scene.name,
                 "has no setpoint, so that no controller can be tuned; add a [reference]");
   study.metric = choice.metric.empty() ? setpoints > 1 ? "iae_px_s" : "steady_rms_px" : choice.metric;
-  check_metric(study.metric);
+  check_metric(study.metric, *check.control().field);
+  study.notes = scenario_notes(s, check, std::filesystem::current_path());
   const Json properties = parts.controller.json_schema(study.controller)["properties"];
   for (const std::string& range : choice.ranges) study.parameters.push_back(parameter_of(range, properties));
   if (choice.ranges.empty()) study.parameters = all_parameters(properties);
+  if (study.parameters.empty() && numbers_of(properties).empty())
+    throw Error(Errc::usage, "controller",
+                fmt::format("\"{}\" has no number that can be tuned; choose another controller with "
+                            "--controller, such as lqr",
+                            study.controller));
   if (study.parameters.empty())
     throw Error(Errc::usage, "controller",
                 fmt::format("\"{}\" has no parameter with a range for tuning; give one with --range "

@@ -69,18 +69,20 @@ class KeepOut final : public Sink {
   double cells_ = 0;  ///< sum of the fractions
 };
 
-// Mean over the run, W.
+// Mean over the run, W; unknown without resistances.
 void add_heat(const Simulation& simulation, const Series& series, Metrics& m) {
   const Field& field = *simulation.control().field;
   const std::span<const double> t = series.column("t_s");
   if (field.coils() == 0 || t.size() < 2) return;
   double joule = 0;
+  bool known = false;
   for (std::size_t k = 0; k < field.coils(); ++k) {
+    known = known || field.circuit(k).resistance > 0;
     const std::span<const double> current = series.column(fmt::format("current_{}_a", k));
     for (std::size_t i = 0; i + 1 < t.size(); ++i)
       joule += field.circuit(k).resistance * current[i] * current[i] * (t[i + 1] - t[i]);
   }
-  m.coil_heat_w = joule / (t.back() - t.front());
+  if (known) m.coil_heat_w = joule / (t.back() - t.front());
 }
 
 void run_trial(Simulation& simulation, const Scenario& s, const std::function<bool()>& stop) {

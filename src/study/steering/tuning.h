@@ -29,6 +29,7 @@ struct TuningStudy {
   int held_out_seeds = 20;  ///< trials of the comparison at the end
   std::uint64_t first_seed = 100001, first_held_out = 1;
   std::shared_ptr<const Parts> parts = nullptr;  ///< null: those of the program
+  std::vector<std::string> notes = {};           ///< of the scenario
 };
 
 /// Wishes of the user; empty: the defaults that new_tuning() chooses.

@@ -39,7 +39,8 @@ nlohmann::ordered_json design_json(const LoopDesign& o) {
           {"poles", poles},
           {"gain_margin", finite_or_null(o.margins.gain)},
           {"phase_margin_deg", finite_or_null(kDegreesPerRadian * o.margins.phase)},
-          {"delay_margin_s", finite_or_null(o.margins.delay)}};
+          {"delay_margin_s", finite_or_null(o.margins.delay)},
+          {"notes", o.notes}};
 }
 
 std::string design_text(const LoopDesign& o) {

@@ -115,7 +115,7 @@ std::string shown_value(const TunedParameter& p, double value) {
 }
 
 std::vector<std::string> tuning_notes(const Tuning& t) {
-  std::vector<std::string> notes;
+  std::vector<std::string> notes = t.study.notes;
   const std::vector<double>& best = best_of(t).value;
   for (std::size_t i = 0; i < best.size(); ++i) {
     const TunedParameter& p = t.study.parameters[i];
