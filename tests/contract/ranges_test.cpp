@@ -32,6 +32,8 @@ const std::vector<Refused> kRefused{
     {"controller fuzzy far_px minimum", "must not be larger than far_px"},
     {"controller compact compact_px maximum", "must be larger than compact_px"},
     {"controller compact spread_px minimum", "must be larger than compact_px"},
+    {"controller mpc obstacle.corners_px minimum", "a polygon has an area"},
+    {"controller mpc obstacle.corners_px maximum", "a polygon has an area"},
 };
 
 /// The key of a number in the tables of this file: a coil of a coil system has the rules of the coil part.
