@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "control/two_swarms.h"
 #include "field/null.h"
@@ -119,23 +120,29 @@ void note_two_swarms(const Scenario& s, SteeringNotes& notes) {
                     s.estimator.type));
 }
 
-// Coils whose fields at a setpoint have one direction only.
+// Whether all fields are along one line. A coil whose field is a hundredth of the strongest one does not
+// count.
+bool along_one_line(std::span<const Vec3> fields) {
+  constexpr double kParallel = 0.1, kWeak = 0.01;  // sine of an angle; fraction of the strongest field
+  Vec2 strongest;
+  for (const Vec3 b : fields)
+    if (std::hypot(b.x, b.y) > norm(strongest)) strongest = {b.x, b.y};
+  const double most = norm(strongest);
+  return most > 0 && std::isfinite(most) && std::all_of(fields.begin(), fields.end(), [&](const Vec3 b) {
+           const double own = std::hypot(b.x, b.y);
+           return own <= kWeak * most ||
+                  std::fabs(b.x * strongest.y - b.y * strongest.x) <= kParallel * own * most;
+         });
+}
+
+// Coils that cannot move a swarm in every direction at a setpoint.
 void note_one_direction(const Scenario& s, const Simulation& simulation, SteeringNotes& notes) {
-  constexpr double kParallel =
-      0.1;  // sine of the angle between two fields: other directions need 10 times the current
   if (!s.controller.has(Trait::feedback)) return;
   const Field& field = *simulation.world().parts().field;
   std::vector<Vec3> b(field.coils());
   for (const Vec2 at : simulation.reference().setpoints()) {
     field.basis({at.x, at.y, 0}, b, {});
-    Vec2 main;
-    for (const Vec3 one : b)
-      if (std::hypot(one.x, one.y) > norm(main)) main = {one.x, one.y};
-    if (!(norm(main) > 0) || !std::isfinite(norm(main))) continue;
-    const bool one_direction = std::all_of(b.begin(), b.end(), [&](const Vec3 one) {
-      return std::fabs(one.x * main.y - one.y * main.x) <= kParallel * dot(main, main);
-    });
-    if (!one_direction) continue;
+    if (!along_one_line(b)) continue;
     notes.push_back(fmt::format(
         "controller: at {} the fields of all coils are nearly along one line, so that the swarm can hardly "
         "be "

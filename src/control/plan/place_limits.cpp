@@ -54,9 +54,10 @@ std::vector<std::string> PlaceLimits::notes(std::span<const Vec2> setpoints) con
     const auto least =
         std::min_element(limits.begin(), limits.end(),
                          [](const PlaceLimit& a, const PlaceLimit& b) { return a.room < b.room; });
-    if (least->room > -1e-3 * m_per_px_) continue;
-    const Vec2 px = frame_.image_from_world(at);
     const bool obstacle = least->limit == PlanLimit::obstacle;
+    // Every run has a note on a setpoint outside of the view or the drop.
+    if (least->room > -1e-3 * m_per_px_ || (!obstacle && least->room < -margin_)) continue;
+    const Vec2 px = frame_.image_from_world(at);
     notes.push_back(fmt::format(
         "the plan keeps the swarm away from {}, and stops it {:.3g} px before the setpoint ({:g}, {:g}) px; "
         "move the setpoint, or reduce {}",
