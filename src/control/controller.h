@@ -61,6 +61,8 @@ class Controller {
     (void)setpoints;
     return {};
   }
+  /// Polygons that it keeps the mean of the swarm out of; m, world frame.
+  virtual std::vector<std::vector<Vec2>> obstacles() const { return {}; }
   /// What it cannot do with its field and its parameters for these setpoints (m, world frame), in sentences;
   /// a run prints them at its start.
   virtual std::vector<std::string> notes(std::span<const Vec2> setpoints) const {

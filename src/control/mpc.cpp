@@ -49,6 +49,7 @@ class Mpc final : public Controller {
   Command update(const Estimate& e, const Target& target, double dt) override;
   double max_field() const override { return steering_.max_field(); }
   std::optional<Plan> plan() const override;
+  std::vector<Polygon> obstacles() const override { return places_.obstacles(); }
   std::vector<std::string> notes(std::span<const Vec2> setpoints) const override {
     return places_.notes(setpoints);
   }

@@ -149,3 +149,25 @@ TEST_CASE("benchmark-control: tables of all cases, comparison with the baseline,
   CHECK(unknown.exit == 2);
   CHECK(unknown.err.find("did you mean \"free\"?") != std::string::npos);
 }
+
+TEST_CASE("a run around an obstacle: its report draws the obstacle and states the distance from it") {
+  const TestFolder f;
+  write_file(f.path / "hold.toml", kHold);
+  const auto run = [&](const std::string& controller) {
+    return faba_in(f.path,
+                   "run hold.toml --seed 1 --quiet --force --set record.video=false --set duration=12 --set "
+                   "reference.setpoint_px=[200,120] --out o --set 'controller=" +
+                       controller + "'")
+        .exit;
+  };
+  const std::string polygon = "corners_px=[[130,100],[150,100],[150,140],[130,140]]";
+  REQUIRE(run("{type=\"mpc\",obstacle=[{" + polygon + "}]}") == 0);
+  const auto manifest = nlohmann::json::parse(read_file(f.path / "o/manifest.json"));
+  CHECK(manifest["obstacles_px"] == nlohmann::json({{{130, 100}, {150, 100}, {150, 140}, {130, 140}}}));
+  const std::string report = read_file(f.path / "o/report.html");
+  CHECK(report.find("Smallest distance of the path from an obstacle: ") != std::string::npos);
+  CHECK(report.find(">obstacle<") != std::string::npos);
+  REQUIRE(run("{type=\"lqr\"}") == 0);
+  CHECK_FALSE(nlohmann::json::parse(read_file(f.path / "o/manifest.json")).contains("obstacles_px"));
+  CHECK(read_file(f.path / "o/report.html").find("obstacle:") == std::string::npos);
+}

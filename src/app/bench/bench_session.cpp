@@ -8,6 +8,7 @@
 
 #include "app/bench/bench_controls.h"
 #include "app/recording/session.h"
+#include "control/obstacles_px.h"
 #include "control/two_swarms.h"
 #include "core/file.h"
 #include "core/statistics.h"
@@ -206,6 +207,7 @@ Manifest BenchSession::describe() const {
   all.setpoint_tolerance_px = m.controls->reference->tolerance_px();
   all.path_done = m.controls->reference->path_done();
   all.two_swarm_distances_px = two_swarm_distances_px(*m.controls->controller, s.si_scale().m_per_px);
+  all.obstacles_px = obstacles_px(*m.controls->controller, m.controls->frame);
   all.video_shows = "camera";
   all.distance_source = "estimated";
   all.notes = m.notes;

@@ -119,6 +119,11 @@ Json manifest_json(const Manifest& m) {
   if (m.nominal_um_per_px) j["nominal_um_per_px"] = *m.nominal_um_per_px;
   if (m.recorded_s) j["recorded_s"] = {m.recorded_s->x, m.recorded_s->y};
   if (m.two_swarm_distances_px) j["two_swarm_distances_px"] = *m.two_swarm_distances_px;
+  for (const std::vector<Vec2>& polygon : m.obstacles_px) {
+    Json corners = Json::array();
+    for (const Vec2 corner : polygon) corners.push_back({corner.x, corner.y});
+    j["obstacles_px"].push_back(std::move(corners));
+  }
   if (m.simulated) add_simulated(j, m);
   if (m.bench) add_bench(j, m);
   return j;

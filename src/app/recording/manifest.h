@@ -40,8 +40,9 @@ struct Manifest {
   std::optional<double> path_done;  ///< fraction of the path of the reference that the swarm has followed
   /// Distances of two swarms with a setpoint each at the end, px, as their controller follows them.
   std::optional<std::array<double, 2>> two_swarm_distances_px;
-  std::string video_shows;      ///< "camera" or "drawing"
-  std::string distance_source;  ///< "true" or "estimated": of distance_px in series.csv
+  std::vector<std::vector<Vec2>> obstacles_px;  ///< polygons that the controller keeps the mean out of
+  std::string video_shows;                      ///< "camera" or "drawing"
+  std::string distance_source;                  ///< "true" or "estimated": of distance_px in series.csv
   std::vector<std::string> notes;
 
   /// A simulated swarm.

@@ -6,6 +6,7 @@
 
 #include "app/recording/checkpoint.h"
 #include "app/run/notes.h"
+#include "control/obstacles_px.h"
 #include "control/setpoint_count.h"
 #include "control/two_swarms.h"
 #include "core/file.h"
@@ -131,6 +132,7 @@ Manifest Session::manifest_now() const {
   m.setpoint_tolerance_px = simulation_->reference().tolerance_px();
   m.path_done = simulation_->reference().path_done();
   m.two_swarm_distances_px = two_swarm_distances_px(simulation_->controller(), scenario_.si_scale().m_per_px);
+  m.obstacles_px = obstacles_px(simulation_->controller(), simulation_->frame());
   m.video_shows = scenario_.record.as_seen ? "camera" : "drawing";
   m.distance_source = "true";
   m.notes = notes_;

@@ -19,7 +19,7 @@ void check_control(const Node& root, const Scenario& s, const Parts& parts) {
   const auto suitable_estimators = [&] {
     return quoted(parts.estimator.names_without({Trait::no_estimate, unsuitable}));
   };
-  const std::vector<std::string> idle = parts.estimator.names_with({Trait::no_estimate});
+  const std::vector<std::string> idle = parts.estimator.names_with(Trait::no_estimate);
   if (s.steers() && s.estimator.has(Trait::no_estimate) &&
       std::find(idle.begin(), idle.end(), s.estimator.type) == idle.end())
     throw Error(

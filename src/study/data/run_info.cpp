@@ -1,8 +1,10 @@
 #include "study/data/run_info.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
@@ -70,6 +72,22 @@ std::string one_line(const Json& object) {
   return line;
 }
 
+std::vector<std::vector<Vec2>> polygons(const Json& list, const Keys& keys) {
+  const auto number_pair = [](const Json& p) {
+    return p.is_array() && p.size() == 2 && p[0].is_number() && p[1].is_number();
+  };
+  std::vector<std::vector<Vec2>> all;
+  if (!list.is_array()) keys.fail("obstacles_px", "a list of polygons");
+  for (const Json& polygon : list) {
+    if (!polygon.is_array() || polygon.size() < 3 ||
+        !std::all_of(polygon.begin(), polygon.end(), number_pair))
+      keys.fail("obstacles_px", "a list of polygons: lists of at least 3 points [x, y]");
+    std::vector<Vec2>& corners = all.emplace_back();
+    for (const Json& p : polygon) corners.push_back({p[0].get<double>(), p[1].get<double>()});
+  }
+  return all;
+}
+
 /// `source`: for messages.
 RunInfo run_info(const Json& json, const std::string& source) {
   const Keys keys(json, source, "");
@@ -108,6 +126,7 @@ RunInfo run_info(const Json& json, const std::string& source) {
     if (centre)
       info.arena = {inside.text("type"), *centre, inside.number("radius_px"), inside.pair("size_px")};
   }
+  if (const Json* obstacles = keys.find("obstacles_px")) info.obstacles_px = polygons(*obstacles, keys);
   if (const Json* notes = keys.find("notes")) {
     if (!notes->is_array()) keys.fail("notes", "a list");
     for (const Json& note : *notes) {
@@ -156,6 +175,7 @@ RunInfo run_info(const Manifest& m) {
     info.setpoint_tolerance_px = m.setpoint_tolerance_px;
     info.path_done = m.path_done;
     info.two_swarm_distances_px = m.two_swarm_distances_px;
+    info.obstacles_px = m.obstacles_px;
     info.notes = m.notes;
   }
   if (m.simulated) {

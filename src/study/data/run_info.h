@@ -36,7 +36,8 @@ struct RunInfo {
   std::optional<double> path_done;              ///< followed fraction of the path of the reference, 0 to 1
   /// Distances of two swarms from a setpoint each at the end, as their controller follows them.
   std::optional<std::array<double, 2>> two_swarm_distances_px;
-  std::optional<Vec2> view_px;  ///< width and height of the frames
+  std::vector<std::vector<Vec2>> obstacles_px;  ///< polygons that the controller keeps the mean out of
+  std::optional<Vec2> view_px;                  ///< width and height of the frames
   std::optional<ArenaOutline> arena;
   std::vector<std::string> notes;          ///< notes on doubtful settings
   std::vector<std::string> swarms;         ///< one line per swarm: "count 500, model adapted"
@@ -49,7 +50,8 @@ RunInfo run_info(const Manifest& m);
 /// Reads a manifest: a JSON object with `version` and optionally `seed, threads, state_hash, scenario_hash,
 /// video_shows, duration_s, um_per_px, um_per_px_source, nominal_um_per_px, title, wall_time_s, view_px = [w,
 /// h], arena = {type, centre_px, radius_px | size_px}, polarity, swarms = [{count, ...}], setpoints,
-/// setpoint_tolerance_px, path_done, two_swarm_distances_px = [first, second], notes = [..]`. null counts as
+/// setpoint_tolerance_px, path_done, two_swarm_distances_px = [first, second], obstacles_px =
+/// [[[x, y], ..], ..], notes = [..]`. null counts as
 /// missing; unknown keys are ignored. Throws Error(Errc::input) with file and key when the file is missing or
 /// not JSON, and for a value of the wrong type.
 RunInfo read_run_info(const std::filesystem::path& path);

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "control/plan/obstacles.h"
 #include "study/plot/markup.h"
 
 namespace faba {
@@ -176,6 +177,32 @@ void add_outlines(Plot& plot, const RunInfo& info) {
   }
 }
 
+void add_obstacles(Figure& figure, const Values& x, const Values& y, const RunInfo& info) {
+  double nearest = std::numeric_limits<double>::infinity();
+  std::size_t inside = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!std::isfinite(x[i] + y[i])) continue;
+    double here = std::numeric_limits<double>::infinity();
+    for (const std::vector<Vec2>& polygon : info.obstacles_px)
+      here = std::min(here, nearest_edge(polygon, {x[i], y[i]}).distance);
+    nearest = std::min(nearest, here);
+    inside += here < 0;
+  }
+  for (const std::vector<Vec2>& polygon : info.obstacles_px) {
+    Line edge{{}, {}, &polygon == &info.obstacles_px.front() ? "obstacle" : "", Ink::vermillion};
+    for (std::size_t i = 0; i <= polygon.size(); ++i) {
+      edge.x.push_back(polygon[i % polygon.size()].x);
+      edge.y.push_back(polygon[i % polygon.size()].y);
+    }
+    figure.plot.add(edge);
+  }
+  if (inside > 0)
+    figure.caption += fmt::format(" The path was inside an obstacle in {:.3g} % of the frames.",
+                                  100.0 * double(inside) / double(x.size()));
+  else if (std::isfinite(nearest))
+    figure.caption += fmt::format(" Smallest distance of the path from an obstacle: {:.3g} px.", nearest);
+}
+
 Figure path_figure(const Series& series, const Metrics& m, const RunInfo& info) {
   const SwarmColumns swarm = swarm_columns(series);
   const auto x = swarm.x, y = swarm.y;
@@ -191,6 +218,7 @@ Figure path_figure(const Series& series, const Metrics& m, const RunInfo& info) 
   const Setpoints setpoints = setpoints_of(series);
   set_path_range(plot, series, info, setpoints);
   add_outlines(plot, info);
+  if (!info.obstacles_px.empty()) add_obstacles(figure, values(x), values(y), info);
   if (m.sigma_x_px && m.sigma_y_px && std::isfinite(x.back() + y.back())) {
     plot.add(Ellipse{x.back(), y.back(), *m.sigma_x_px, *m.sigma_y_px, "final standard deviation",
                      Ink::orange, true});

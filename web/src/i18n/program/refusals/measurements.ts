@@ -29,6 +29,8 @@ export const measurements: Record<string, string> = {
   'an object': 'um objeto',
   'a list': 'uma lista',
   'a list of strings': 'uma lista de textos',
+  'a list of polygons': 'uma lista de polígonos',
+  'a list of polygons: lists of at least 3 points [x, y]': 'uma lista de polígonos: listas de pelo menos 3 pontos [x, y]',
   'a list of objects': 'uma lista de objetos',
   'between 0 and 1e15': 'entre 0 e 1e15',
   'its video is a drawing, not a camera video; record the run with --as-seen': 'o seu vídeo é um desenho, não um vídeo de câmera; grave a execução com --as-seen',
