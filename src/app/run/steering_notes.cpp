@@ -145,8 +145,7 @@ void note_one_direction(const Scenario& s, const Simulation& simulation, Steerin
     if (!along_one_line(b)) continue;
     notes.push_back(fmt::format(
         "controller: at {} the fields of all coils are nearly along one line, so that the swarm can hardly "
-        "be "
-        "steered perpendicular to it; use coils in two directions, as in rigs/thesis-four-coils.toml",
+        "be steered perpendicular to it; use coils in two directions, as in rigs/thesis-four-coils.toml",
         in_px(simulation.frame().image_from_world(at))));
     return;
   }

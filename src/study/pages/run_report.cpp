@@ -104,7 +104,7 @@ std::string path_text(const RunInfo& info) {
 std::string two_swarms_text(const std::array<double, 2>& distance_px, const Metrics& m, const RunInfo& info) {
   return fmt::format(
       "The controller steers two swarms to a setpoint each. At the end of the run ({}) the first was {} "
-      "and the second {} from its setpoint, as the controller followed them.",
+      "and the second {} from its setpoint, as the controller followed the centres of their circles.",
       seconds(run_duration(m, info)), length_text(distance_px[0], info), length_text(distance_px[1], info));
 }
 
