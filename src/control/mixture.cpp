@@ -8,6 +8,7 @@
 
 #include "control/plant/motion_model.h"
 #include "control/plant/rotation.h"
+#include "control/plant/swarm_pair.h"
 #include "control/two_swarms.h"
 #include "field/allocate.h"
 
@@ -46,23 +47,18 @@ class Mixture final : public TwoSwarmController {
   }
   std::vector<std::string> notes(std::span<const Vec2> setpoints) const override;
   std::array<double, 2> distances() const override {
-    return resolved_ ? distance_ : std::array{distance_[0], kNone};  // a second swarm needs a second group
+    return pair_.resolved() ? distance_
+                            : std::array{distance_[0], kNone};  // a second swarm needs a second group
   }
-  void archive(Archive& a) override {
-    a& rotation_& resolved_& second_target_& distance_[0] & distance_[1];
-    for (Followed& f : followed_) a& f;
+  void archive(Archive& a) override { a& rotation_& pair_& second_target_& distance_[0] & distance_[1]; }
+  std::optional<Vec2> second_setpoint() const override {
+    return p_.second_px ? std::optional(second_target_) : std::nullopt;
   }
+  bool opposite() const override { return sign_[1] < 0; }
 
  private:
   using Vec4 = Eigen::Vector4d;
   using Fields = Eigen::Matrix<double, 4, Eigen::Dynamic>;
-  /// One of the two swarms, followed from frame to frame.
-  struct Followed {
-    Vec2 centre;        ///< of its circle, m
-    Vec2 velocity;      ///< by the last command, m/s
-    double unseen = 0;  ///< s, since it was last a group of its own
-    void archive(Archive& a) { a& centre& velocity& unseen; }
-  };
   using Pair = std::array<Vec2, 2>;
   /// Fields that the coils make at two positions.
   struct Patterns {
@@ -73,21 +69,10 @@ class Mixture final : public TwoSwarmController {
   };
 
   Vec2 ambient() const { return {c_.field->ambient().x, c_.field->ambient().y}; }
-  Vec2 centre_of(std::size_t swarm, Vec2 position, double age) const {
-    return swarms_[swarm].centre(position, age, sign_[swarm], rotation_);
-  }
-  void follow(const std::vector<Group>& groups, Vec2 centroid, double age, double dt);
-  void start(const std::vector<Group>& groups, Vec2 centroid, double age);
-  void match(const std::vector<Group>& groups, double age, double dt);
-  void match_single(const Group& g, double age, double dt);
   Patterns patterns(const Pair& at) const;
   Pair drifts(const Pair& target, bool independent) const;
   std::vector<double> carrier() const;
   Pair add_bias(const Patterns& p, const Pair& wanted, std::vector<double>& current) const;
-  void see(std::size_t swarm, Vec2 position, double age) {
-    followed_[swarm].centre = centre_of(swarm, position, age);
-    followed_[swarm].unseen = 0;
-  }
 
   Params p_;
   ControlContext c_;
@@ -95,18 +80,14 @@ class Mixture final : public TwoSwarmController {
   std::array<CirclingSwarm, 2> swarms_;
   std::array<double, 2> sign_, weight_;
   std::vector<double> spare_;  ///< current that the rotating field leaves for the bias, A
-  bool resolved_ = false;      ///< both swarms have been seen as two groups
+  SwarmPair pair_;
   Vec2 second_target_;
-  std::array<Followed, 2> followed_;
   std::array<double, 2> distance_ = {kNone, kNone};  ///< m, of distances()
 };
 
 constexpr double kMixtureStrength = 3e-4;  // T
 // A bias of 1 % of the rotating field moves a swarm with 0.5 % of its speed.
 constexpr double kWeakest = 0.01;
-constexpr double kCoast = 10;  // s, for which a swarm that is not separate is predicted by the commands
-constexpr double kAmbiguous =
-    0.5;  // ratio of the squared distances of an assignment to those of its exchange
 
 SwarmMotion second_motion(const Mixture::Params& p, SwarmMotion m) {
   m.speed = p.second_speed.value_or(m.speed);
@@ -122,13 +103,14 @@ Schema<Mixture::Params> Mixture::schema() {
             .min = -1e5,
             .max = 1e5,
             .doc = "Setpoint of the second swarm in image coordinates, y down; the reference gives that of "
-                   "the first; default: where the second swarm is first seen",
+                   "the first; default: where the second swarm is first recognised",
             .title = "Setpoint of the second swarm"})
       .add("near_px", &Params::near_px,
            {.unit = "px",
             .min = -1e5,
             .max = 1e5,
-            .doc = "Initial position of the first swarm in image coordinates; default: that of the estimate",
+            .doc = "Initial position of the first swarm in image coordinates; default: that of the estimate. "
+                   "Which swarm is the first is decided by how they circle in the first turns of the field",
             .title = "Initial position of the first swarm"})
       .add("first_polarity", &Params::first_polarity,
            {.doc = "Polarity of the first swarm; majority: that of most cells, south if there are as many of "
@@ -172,7 +154,9 @@ Mixture::Mixture(const Params& p, const ControlContext& c)
       rotation_(p.rotation, kMixtureStrength, p.motion.of(c.motion), c),
       swarms_{CirclingSwarm(p.motion.of(c.motion), rotation_, p.rotation.gain, c),
               CirclingSwarm(second_motion(p, p.motion.of(c.motion)), rotation_, p.rotation.gain, c)},
-      sign_{1, p.second_polarity == Polarity::same ? 1.0 : -1.0} {
+      sign_{1, p.second_polarity == Polarity::same ? 1.0 : -1.0},
+      pair_(swarms_, sign_,
+            p.near_px ? std::optional(c.frame.world_from_image(*p.near_px)) : std::optional<Vec2>()) {
   if (p.first_polarity != First::majority) c_.polarity = p.first_polarity == First::north ? 1 : -1;
   const double first = swarms_[0].mobility(), second = swarms_[1].mobility();
   const double mean = std::sqrt((first * first + second * second) / 2);
@@ -186,79 +170,6 @@ Mixture::Mixture(const Params& p, const ControlContext& c)
     const bool limited = k < c.max_current.size() && std::isfinite(c.max_current[k]);
     const double most = limited ? c.max_current[k] : 1.0;
     spare_.push_back(limited ? std::max(most - carried * norm(Vec2{x[k], y[k]}), kLeast * most) : most);
-  }
-}
-
-// The first swarm is the group nearest to `near_px`; the second is the largest of the others.
-void Mixture::start(const std::vector<Group>& groups, Vec2 centroid, double age) {
-  const Vec2 from = p_.near_px ? c_.frame.world_from_image(*p_.near_px) : centroid;
-  std::size_t first = 0;
-  for (std::size_t k = 1; k < groups.size(); ++k)
-    if (norm(groups[k].centroid - from) < norm(groups[first].centroid - from)) first = k;
-  std::size_t second = first == 0 ? 1 : 0;
-  for (std::size_t k = 0; k < groups.size(); ++k)
-    if (k != first && groups[k].share > groups[second].share) second = k;
-  see(0, groups[first].centroid, age);
-  see(1, groups[second].centroid, age);
-  if (!p_.second_px) second_target_ = followed_[1].centre;
-  resolved_ = true;
-}
-
-// Nearest assignment to the predicted centres; near a crossing both assignments are similar, and the swarms
-// keep the predictions.
-void Mixture::match(const std::vector<Group>& groups, double age, double dt) {
-  const auto cost = [&](std::size_t a, std::size_t b) {
-    const Vec2 first = centre_of(0, groups[a].centroid, age) - followed_[0].centre;
-    const Vec2 second = centre_of(1, groups[b].centroid, age) - followed_[1].centre;
-    return dot(first, first) + dot(second, second);
-  };
-  std::size_t first = 0, second = 1;
-  for (std::size_t a = 0; a < groups.size(); ++a)
-    for (std::size_t b = 0; b < groups.size(); ++b)
-      if (a != b && cost(a, b) < cost(first, second)) {
-        first = a;
-        second = b;
-      }
-  const bool clear = cost(first, second) <= kAmbiguous * cost(second, first);
-  if (!clear && followed_[0].unseen < kCoast && followed_[1].unseen < kCoast) {
-    for (Followed& f : followed_) f.unseen += dt;
-    return;
-  }
-  see(0, groups[first].centroid, age);
-  see(1, groups[second].centroid, age);
-}
-
-// A single group is the nearer swarm if the other is outside of it, else both.
-void Mixture::match_single(const Group& g, double age, double dt) {
-  constexpr double kOutside = 3;  // standard deviations
-  const double size = kOutside * kOutside * std::max(g.cov.xx, g.cov.yy);
-  std::array<double, 2> square{};
-  for (std::size_t i = 0; i < 2; ++i) {
-    const Vec2 from = centre_of(i, g.centroid, age) - followed_[i].centre;
-    square[i] = dot(from, from);
-  }
-  for (std::size_t i = 0; i < 2; ++i) {
-    const bool alone = square[1 - i] > size && square[i] <= kAmbiguous * square[1 - i];
-    followed_[i].unseen += dt;
-    if (alone)
-      see(i, g.centroid, age);
-    else if (followed_[i].unseen >= kCoast)
-      followed_[i].centre = centre_of(i, g.centroid, age);
-  }
-}
-
-void Mixture::follow(const std::vector<Group>& groups, Vec2 centroid, double age, double dt) {
-  const Group first = groups.empty() ? Group{centroid, 1, {}} : groups[0];
-  for (Followed& f : followed_) f.centre = f.centre + dt * f.velocity;
-  if (groups.size() < 2 && !resolved_) {
-    for (std::size_t i = 0; i < 2; ++i) see(i, first.centroid, age);
-    if (!p_.second_px) second_target_ = followed_[1].centre;
-  } else if (groups.size() < 2) {
-    match_single(first, age, dt);
-  } else if (!resolved_) {
-    start(groups, centroid, age);
-  } else {
-    match(groups, age, dt);
   }
 }
 
@@ -293,7 +204,7 @@ Mixture::Pair Mixture::drifts(const Pair& target, bool independent) const {
   Pair wanted;
   std::array<double, 2> size{};
   for (std::size_t i = 0; i < 2; ++i) {
-    wanted[i] = gain * (target[i] - followed_[i].centre);
+    wanted[i] = gain * (target[i] - pair_.centre(i));
     if (!std::isfinite(norm(wanted[i]))) wanted[i] = {};
     size[i] = std::max(1.0, norm(wanted[i]) / std::max(swarms_[i].max_drift(), 1e-12));
   }
@@ -303,7 +214,7 @@ Mixture::Pair Mixture::drifts(const Pair& target, bool independent) const {
 }
 
 std::vector<double> Mixture::carrier() const {
-  const Vec2 middle = 0.5 * (followed_[0].centre + followed_[1].centre);
+  const Vec2 middle = 0.5 * (pair_.centre(0) + pair_.centre(1));
   return allocate(*c_.field, {middle.x, middle.y, 0}, double(c_.polarity) * rotation_.field() - ambient());
 }
 
@@ -340,10 +251,13 @@ Command Mixture::update(const Estimate& e, const Target& target, double dt) {
   std::vector<Group> groups = e.groups;
   std::erase_if(groups, [](const Group& g) { return !std::isfinite(norm(g.centroid)); });
   const bool predicted = groups.empty() && e.predicted;
-  follow(groups, e.centroid, predicted ? 0 : c_.delay_frames * c_.frame_period, dt);
-  distance_ = {norm(target.position - followed_[0].centre), norm(second_target_ - followed_[1].centre)};
+  const double age = predicted ? 0 : c_.delay_frames * c_.frame_period;
+  const bool decided = pair_.follow(groups, e.centroid, age, dt, rotation_);
+  if (decided && !p_.second_px) second_target_ = pair_.centre(1);
+  const Pair at{pair_.centre(0), pair_.centre(1)};
+  distance_ = {norm(target.position - at[0]), norm(second_target_ - at[1])};
 
-  const Patterns p = patterns({followed_[0].centre, followed_[1].centre});
+  const Patterns p = patterns(at);
   const Pair drift = drifts({target.position, second_target_}, p.used == 4);
   Pair wanted;
   for (std::size_t i = 0; i < 2; ++i)
@@ -351,7 +265,7 @@ Command Mixture::update(const Estimate& e, const Target& target, double dt) {
   std::vector<double> current = carrier();
   const Pair made = add_bias(p, wanted, current);
   for (std::size_t i = 0; i < 2; ++i)
-    followed_[i].velocity = swarms_[i].drift_by((c_.polarity * sign_[i]) * made[i], rotation_);
+    pair_.set_velocity(i, swarms_[i].drift_by((c_.polarity * sign_[i]) * made[i], rotation_));
   return {current};
 }
 
@@ -375,7 +289,7 @@ std::vector<std::string> Mixture::notes(std::span<const Vec2> setpoints) const {
         "with the swarms at ({:.0f}, {:.0f}) px and ({:.0f}, {:.0f}) px the coils make only {} of the 4 "
         "components of both fields with at least 1 % of the rotating field; along the others the sum of the "
         "squared distances from the setpoints becomes as small as possible; choose setpoints that are "
-        "further apart, or coils in more directions, as in rigs/eight-coils.toml",
+        "further apart, or, with less than eight coils, coils as in rigs/eight-coils.toml",
         first.x, first.y, p_.second_px->x, p_.second_px->y, used));
     break;
   }

@@ -1,8 +1,11 @@
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "control/plant/motion_model.h"
 #include "control/plant/rotation.h"
 #include "control/plant/steering.h"
+#include "core/portable_math.h"
 
 namespace faba {
 namespace {
@@ -25,12 +28,14 @@ class RotatingHold final : public Controller {
   Command update(const Estimate& e, const Target& target, double dt) override;
   double max_field() const override { return steering_.max_field(); }
   void archive(Archive& a) override { a& rotation_; }
+  std::vector<std::string> notes(std::span<const Vec2> setpoints) const override;
 
  private:
   Rotation rotation_;
   CirclingSwarm swarm_;
   Steering steering_;
-  double delay_;  ///< s, of an estimate that is not predicted
+  double delay_;     ///< s, of an estimate that is not predicted
+  double m_per_px_;  ///< m
 };
 
 constexpr double kHoldStrength = 1e-3;  // T
@@ -48,7 +53,21 @@ RotatingHold::RotatingHold(const Params& p, const ControlContext& c)
     : rotation_(p.rotation, kHoldStrength, p.motion.of(c.motion), c),
       swarm_(p.motion.of(c.motion), rotation_, p.rotation.gain, c),
       steering_(p.motion, (1 + Rotation::kLargestBias) * rotation_.strength() / c.scale.field_unit, c),
-      delay_(c.delay_frames * c.frame_period) {}
+      delay_(c.delay_frames * c.frame_period),
+      m_per_px_(c.scale.m_per_px) {}
+
+std::vector<std::string> RotatingHold::notes(std::span<const Vec2> setpoints) const {
+  constexpr double kWide = 10;  // px, the smallest settling band (theory F5)
+  const double radius = swarm_.speed() / std::fabs(rotation_.rate());
+  std::vector<std::string> notes;
+  if (!setpoints.empty() && radius > kWide * m_per_px_)
+    notes.push_back(
+        fmt::format("the held cells circle with a radius of {:.3g} px ({:.3g} um) at {:.3g} Hz, so that the "
+                    "mean of the swarm stays that far from its setpoint; a higher controller.frequency makes "
+                    "the circles smaller",
+                    radius / m_per_px_, radius * 1e6, std::fabs(rotation_.rate()) / (2 * portable::kPi)));
+  return notes;
+}
 
 Command RotatingHold::update(const Estimate& e, const Target& target, double dt) {
   if (!(e.visible > 0) || !std::isfinite(norm(e.centroid))) return steering_.none();

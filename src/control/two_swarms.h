@@ -13,6 +13,10 @@ class TwoSwarmController : public Controller {
   /// Distances of the first and the second swarm from their setpoints at the last update, m, as it follows
   /// them; NaN before the first update and without a setpoint.
   virtual std::array<double, 2> distances() const = 0;
+  /// Given setpoint of the second swarm, world frame, m; empty: it is held where it is.
+  virtual std::optional<Vec2> second_setpoint() const = 0;
+  /// Whether it expects swarms of opposite polarity.
+  virtual bool opposite() const = 0;
 };
 
 /// The same in px; empty for a controller of one swarm, and where a distance is not known.

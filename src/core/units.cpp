@@ -206,6 +206,7 @@ std::string dimension_name(const Dimension& d) {
                                                                    {"K", "temperature"},
                                                                    {"V", "voltage"},
                                                                    {"ohm", "resistance"},
+                                                                   {"W", "power"},
                                                                    {"Pa s", "viscosity"},
                                                                    {"m^2/s", "diffusivity"},
                                                                    {"N m s", "rotational drag"},

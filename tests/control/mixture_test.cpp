@@ -158,6 +158,12 @@ TEST_CASE("mixture: a note states when the field cannot steer both, and what is 
   CHECK(std::any_of(stated.begin(), stated.end(), [](const std::string& n) {
     return n.find("steers two swarms, but the scenario has one [[swarm]]") != std::string::npos;
   }));
+  const std::string equal = notes({.field = kEight, .second_polarity = "north"});
+  CHECK(equal.find("controller.second_polarity is \"opposite\", but the swarms of the scenario have the same "
+                   "polarity; set it to \"same\"") != std::string::npos);
+  const std::string far = notes({.field = kEight, .controller = "second_px = [1400, 340]"});
+  CHECK(far.find("controller.second_px: the setpoint (1400, 340) px is outside the drop") !=
+        std::string::npos);
   const std::string one = notes({.field = kEight, .estimator = "'visible'"});
   CHECK(one.find("it steers two swarms, but estimator \"visible\" does not separate them") !=
         std::string::npos);
@@ -237,6 +243,68 @@ TEST_CASE("mixture: two swarms that cross keep their identity") {
   // The centre of the circle is within its radius, 186 um/s / 7 rad/s.
   CHECK(norm(at[0] - frame.world_from_image({440, 240})) < 40e-6);
   CHECK(norm(at[1] - frame.world_from_image({200, 240})) < 40e-6);
+}
+
+namespace {
+
+/// Two swarms between eight coils, with the first expected where the second is, if `near` is the second's.
+std::string unnamed(const std::string& near, const std::string& second = "south") {
+  return scene({.field = kEight,
+                .second_polarity = second,
+                .controller = "second_px = [400, 340]" +
+                              std::string(second == "north" ? "\nsecond_polarity = 'same'" : ""),
+                .near = near});
+}
+/// Largest distance of a swarm from its setpoint after 30 s, px.
+double farthest(const std::string& toml, std::uint64_t seed) {
+  TestSwarm t(toml, seed);
+  const Pair end = after(t, 60 * 30, 64);
+  return std::max(norm(end[0] - Vec2{250, 230}), norm(end[1] - Vec2{400, 340}));
+}
+
+}  // namespace
+
+TEST_CASE("mixture: the circles of the swarms show which is the first, wherever it is expected") {
+  constexpr double kBand = 10;  // px
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    CHECK(farthest(unnamed("[380, 300]"), seed) < kBand);
+    // Without an expected position: the estimate is that of one of two groups of the same size.
+    std::string toml = unnamed("[0, 0]");
+    const std::size_t key = toml.find("near_px");
+    toml.erase(key, toml.find('\n', key) - key);
+    CHECK(farthest(toml, seed) < kBand);
+  }
+}
+
+TEST_CASE("mixture: swarms with equal circles are those of the expected positions") {
+  // Both are north-seeking with the same speed: nothing shows which is the first, and nothing contradicts.
+  const auto followed = [](const std::string& near) {
+    TestSwarm t(unnamed(near, "north"), 1);
+    after(t, 60 * 5, 1);
+    return *two_swarm_distances_px(t.simulation.controller(), t.scenario.si_scale().m_per_px);
+  };
+  const auto [first, second] = followed("[240, 180]");
+  const auto [exchanged_first, exchanged_second] = followed("[380, 300]");
+  CHECK(first < 60);             // 51 px at the start
+  CHECK(exchanged_first > 100);  // 148 px at the start
+}
+
+TEST_CASE("mixture: swarms of the same polarity are recognised by their speeds") {
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    TestSwarm t(scene({.second_polarity = "north",
+                       .controller = "second_px = [340, 260]\nsecond_polarity = 'same'\n"
+                                     "second_speed = '93 um/s'",
+                       .second_model = "preset = 'IT-1', speed = '93 um/s', speed_sd = '20 um/s'",
+                       .near = "[380, 300]"}),
+                seed);
+    after(t, 60 * 5, 1);
+    const Pair at = means_px(t);
+    const auto [first, second] =
+        *two_swarm_distances_px(t.simulation.controller(), t.scenario.si_scale().m_per_px);
+    // The radius of the circle of the first swarm is 23 px.
+    CHECK(std::abs(first - norm(at[0] - Vec2{250, 230})) < 30);
+    CHECK(std::abs(second - norm(at[1] - Vec2{340, 260})) < 30);
+  }
 }
 
 TEST_CASE("mixture: bits are equal after a checkpoint") {

@@ -259,6 +259,18 @@ TEST_CASE("rotating_hold: the models whose cells follow the field at once arrive
   }
 }
 
+TEST_CASE("rotating_hold: circles that are wider than the settling band are noted") {
+  const auto notes = [](const std::string& frequency) {
+    TestSwarm t(scene(
+        "{ type = 'dipole', preset = 'IT-1' }",
+        "camera = { rate = 60 }\ncontroller = { type = 'rotating_hold', frequency = " + frequency + " }"));
+    return t.simulation.controller().notes(t.simulation.reference().setpoints());
+  };
+  CHECK(notes("5").empty());  // 186 um/s / (10 pi rad/s) = 5.9 um, 6.5 px
+  REQUIRE(notes("-1").size() == 1);
+  CHECK(notes("-1")[0].find("a radius of 32.3 px (29.6 um) at 1 Hz") != std::string::npos);
+}
+
 TEST_CASE("rotating_hold: bits are equal after a checkpoint") {
   const std::string toml = scene("{ type = 'dipole', preset = 'IT-1' }",
                                  "camera = { rate = 60, delay_frames = 2 }\ncontroller = 'rotating_hold'");

@@ -27,6 +27,7 @@ TEST_CASE("dimensions") {
   CHECK_FALSE(parse_unit("m").dimension == parse_unit("px").dimension);
   CHECK(dimension_name(parse_unit("mm/min").dimension) == "speed");
   CHECK(dimension_name(parse_unit("mV").dimension) == "voltage");
+  CHECK(dimension_name(parse_unit("mW").dimension) == "power");
   CHECK(dimension_name(parse_unit("mol/m^3").dimension) == "quantity in m^-3 mol");
 }
 

@@ -106,8 +106,10 @@ void note_currents(const Scenario& s, const Simulation& simulation, SteeringNote
   }
 }
 
-// Two swarms that do not exist, or that the estimator does not separate.
-void note_two_swarms(const Scenario& s, SteeringNotes& notes) {
+// Two swarms that do not exist, that differ from the expected ones, that the estimator does not separate, or
+// of which the second cannot reach its setpoint.
+void note_two_swarms(const Scenario& s, const Simulation& simulation, const TwoSwarmController& controller,
+                     SteeringNotes& notes) {
   if (s.swarms.size() == 1)
     notes.push_back(
         fmt::format("controller: \"{}\" steers two swarms, but the scenario has one [[swarm]]; add a second "
@@ -118,6 +120,24 @@ void note_two_swarms(const Scenario& s, SteeringNotes& notes) {
         fmt::format("controller: it steers two swarms, but estimator \"{}\" does not separate them; use "
                     "the estimator of groups",
                     s.estimator.type));
+  if (s.swarms.size() == 2) {
+    const bool opposite = s.swarms[0].params.polarity != s.swarms[1].params.polarity;
+    if (opposite && !controller.opposite())
+      notes.emplace_back(
+          "controller.second_polarity is \"same\", but the swarms of the scenario have opposite polarity; "
+          "set "
+          "it to \"opposite\"");
+    if (!opposite && controller.opposite())
+      notes.emplace_back(
+          "controller.second_polarity is \"opposite\", but the swarms of the scenario have the same "
+          "polarity; "
+          "set it to \"same\"");
+  }
+  const std::optional<Vec2> second = controller.second_setpoint();
+  if (second && simulation.world().parts().arena->depth(*second) < 0)
+    notes.push_back(fmt::format(
+        "controller.second_px: the setpoint {} is outside the {}; the second swarm cannot reach it",
+        in_px(simulation.frame().image_from_world(*second)), s.arena.type));
 }
 
 // Whether all fields are along one line. A coil whose field is a hundredth of the strongest one does not
@@ -159,8 +179,8 @@ void add_steering_notes(const Scenario& s, const Simulation& simulation, Steerin
     for (const std::string& text : simulation.controller().notes(simulation.reference().setpoints()))
       notes.push_back(fmt::format("controller: {}", text));
     note_one_direction(s, simulation, notes);
-    if (dynamic_cast<const TwoSwarmController*>(&simulation.controller()) != nullptr)
-      note_two_swarms(s, notes);
+    if (const auto* two = dynamic_cast<const TwoSwarmController*>(&simulation.controller()))
+      note_two_swarms(s, simulation, *two, notes);
     else
       note_polarities(s, notes);
   }

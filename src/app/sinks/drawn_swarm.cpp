@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "control/obstacles_px.h"
+#include "control/two_swarms.h"
+
 namespace faba {
 
 DrawnSwarm::DrawnSwarm(const World& world, const Loop& loop, std::optional<double> um_per_px)
@@ -37,6 +40,12 @@ void DrawnSwarm::draw(double t, Vec2 target, RgbImage& picture) {
   route_.clear();
   for (const Vec2 p : loop_.reference->setpoints()) route_.push_back(frame.image_from_world(p));
   scene.route = route_;
+  const auto* two = dynamic_cast<const TwoSwarmController*>(loop_.controller);
+  if (const auto second = two != nullptr ? two->second_setpoint() : std::nullopt)
+    scene.second_setpoint = frame.image_from_world(*second);
+  std::vector<std::vector<Vec2>> obstacles;
+  if (!picture_) obstacles = obstacles_px(*loop_.controller, frame);  // drawn once
+  scene.obstacles = obstacles;
   scene.field_ut = {b.x * 1e6, b.y * 1e6};
   if (!picture_) picture_.emplace(scene);
   picture_->draw(scene, picture);

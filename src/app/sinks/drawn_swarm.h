@@ -6,8 +6,8 @@
 
 namespace faba {
 
-/// Draws a simulation as a schematic picture: cells in the colours of their swarms, the drop, setpoint and
-/// route, the field at the centroid. The constant background is drawn once.
+/// Draws a simulation as a schematic picture: cells in the colours of their swarms, the drop, setpoints,
+/// route and obstacles, the field at the centroid. The constant background is drawn once.
 class DrawnSwarm {
  public:
   /// `world` and `loop` must outlive it. `um_per_px` is for the scale bar; empty: in px.

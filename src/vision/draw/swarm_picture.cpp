@@ -16,6 +16,7 @@ namespace {
 constexpr Rgb kSwarm[] = {{30, 48, 74}, {0, 114, 178}, {213, 94, 0}, {146, 90, 20}}, kPale{178, 182, 190};
 const cv::Scalar kGround{247, 246, 242}, kOutside{214, 214, 208}, kEdge{120, 120, 112};
 const cv::Scalar kGreen{0, 158, 115}, kPurple{160, 40, 160}, kLabel{60, 60, 60};
+const cv::Scalar kObstacle{248, 222, 206}, kObstacleEdge{213, 94, 0};
 constexpr std::size_t kManyCells = 20000;  // above, a cell is one pixel: discs would cover each other
 
 void line(cv::Mat& m, Vec2 a, Vec2 b, const cv::Scalar& colour, int thickness = 1) {
@@ -45,6 +46,13 @@ void ground(cv::Mat& m, const SwarmScene& s) {
   if (s.edge_radius_px > 0)
     cv::circle(m, fixed_point(s.edge_centre), fixed_length(s.edge_radius_px), kGround, cv::FILLED,
                cv::LINE_AA, kShift);
+}
+
+void obstacle(cv::Mat& m, const std::vector<Vec2>& polygon) {
+  std::vector<cv::Point> corners;
+  for (const Vec2 corner : polygon) corners.push_back(fixed_point(corner));
+  cv::fillPoly(m, std::vector{corners}, kObstacle, cv::LINE_AA, kShift);
+  cv::polylines(m, std::vector{corners}, true, kObstacleEdge, 1, cv::LINE_AA, kShift);
 }
 
 void scale_bar(cv::Mat& m, const SwarmScene& s) {
@@ -78,6 +86,7 @@ SwarmPicture::SwarmPicture(const SwarmScene& s) : ground_(s.width, s.height), di
   ground(m, s);
   if (s.edge_radius_px > 0)
     cv::circle(m, fixed_point(s.edge_centre), fixed_length(s.edge_radius_px), kEdge, 1, cv::LINE_AA, kShift);
+  for (const std::vector<Vec2>& polygon : s.obstacles) obstacle(m, polygon);
   for (std::size_t i = 1; i < s.route.size(); ++i) line(m, s.route[i - 1], s.route[i], {210, 160, 210});
 }
 
@@ -99,6 +108,7 @@ void SwarmPicture::draw(const SwarmScene& s, RgbImage& out) const {
   cv::Mat m(s.height, s.width, CV_8UC3, out.px.data());
   draw_cells(s, out);
   if (s.setpoint) cross(m, *s.setpoint, 10, kPurple);
+  if (s.second_setpoint) cross(m, *s.second_setpoint, 10, kPurple);
   if (s.centroid) cross(m, *s.centroid, 7, kGreen);
   if (s.width >= 160 && s.height >= 120) {  // smaller pictures have no space for text
     scale_bar(m, s);

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/vec.h"
 #include "vision/draw/disc_sprites.h"
@@ -21,10 +22,12 @@ struct SwarmScene {
   std::span<const Cell> cells;
   double cell_radius_px = 1.2;
   Vec2 edge_centre;
-  double edge_radius_px = 0;          ///< 0: no round edge, the picture border is the wall
-  std::optional<Vec2> centroid;       ///< green cross
-  std::optional<Vec2> setpoint;       ///< purple cross
-  std::span<const Vec2> route;        ///< thin purple line through all setpoints
+  double edge_radius_px = 0;                     ///< 0: no round edge, the picture border is the wall
+  std::optional<Vec2> centroid;                  ///< green cross
+  std::optional<Vec2> setpoint;                  ///< purple cross
+  std::optional<Vec2> second_setpoint;           ///< of a second swarm; purple cross
+  std::span<const Vec2> route;                   ///< thin purple line through all setpoints
+  std::span<const std::vector<Vec2>> obstacles;  ///< polygons, red-orange
   Vec2 field_ut;                      ///< arrow in the corner: field at the centroid, world frame (y up), uT
   const Gray8* background = nullptr;  ///< background picture of the same size, drawn faintly; nullptr: none
 };
@@ -32,7 +35,7 @@ struct SwarmScene {
 /// Draws pictures of a swarm. Deterministic.
 class SwarmPicture {
  public:
-  /// Draws the part that all pictures have in common: background, drop with edge, route.
+  /// Draws the part that all pictures have in common: background, drop with edge, obstacles, route.
   explicit SwarmPicture(const SwarmScene& scene);
   /// Draws the cells, crosses, scale bar, time and field arrow of `scene` on it. `picture` gets the result; a
   /// picture of this size is drawn without taking new memory.
