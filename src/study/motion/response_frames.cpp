@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -19,10 +20,11 @@
 namespace faba {
 namespace {
 
-constexpr int kSampled = 40;         // frames of the median
-constexpr double kDefaultSize = 4;   // px, as DetectorOptions: when no spot is significant
-constexpr double kSmoothing = 8;     // px: scale of the illumination, for the polarity
-constexpr double kSegmentSizes = 3;  // length of the closing segment over the size of an object
+constexpr int kSampled = 40;                    // frames of the median
+constexpr std::size_t kKeptBytes = 256u << 20;  // as BackgroundSampler
+constexpr double kDefaultSize = 4;              // px, as DetectorOptions: when no spot is significant
+constexpr double kSmoothing = 8;                // px: scale of the illumination, for the polarity
+constexpr double kSegmentSizes = 3;             // length of the closing segment over the size of an object
 // Of the median light: where it is darker, noise is not amplified more. Assumed.
 constexpr double kLeastLight = 0.3;
 
@@ -54,23 +56,13 @@ GrayF reduced(GrayF& frame, int side) {
 
 ResponseFrames::ResponseFrames(std::filesystem::path video, const VideoPart& part, unsigned threads,
                                std::function<void()> check)
-    : video_(std::move(video)), threads_(OrderedWork::threads(threads)), check_(std::move(check)) {
+    : video_(std::move(video)),
+      threads_(OrderedWork::threads(threads)),
+      check_(std::move(check)),
+      part_(part) {
   BackgroundSampler sampler(kSampled);
-  const FrameInspector sample{
-      [&](double) {
-        ++frames_;
-        const bool needed = sampler.needs_next();
-        if (!needed) sampler.skip();
-        return needed;
-      },
-      [&](const GrayF& frame) -> std::function<void()> {
-        side_ =
-            std::max(1, (std::max(frame.width, frame.height) + kLongResponseSide - 1) / kLongResponseSide);
-        GrayF finite = frame;
-        sampler.take(reduced(finite, side_));
-        return {};
-      }};
-  inspect_video(video_, part, sample, threads_, [&](auto, auto) { check_(); });
+  const bool fits = start(part);
+  if (!fits || !keep(part, sampler)) sample(part, sampler);
   if (frames_ == 0) throw Error(Errc::input, video_.string(), "no frame in this part of the video");
   Pool pool(threads_);
   Background median = sampler.background(pool);
@@ -89,22 +81,70 @@ ResponseFrames::ResponseFrames(std::filesystem::path video, const VideoPart& par
   if (polarity == Polarity::dark) gain_ = per_light(filled_);
 }
 
-GrayF ResponseFrames::prepared(GrayF& frame) const {
-  GrayF out = difference(filled_, scaled(reduced(frame, side_), float(sign_)));
+// Whether all pictures of the part fit into memory, by the number of frames that the file states.
+bool ResponseFrames::start(const VideoPart& part) {
+  const VideoReader reader(video_, part.fps);
+  side_ =
+      std::max(1, (std::max(reader.width(), reader.height()) + kLongResponseSide - 1) / kLongResponseSide);
+  bytes_ = sizeof(float) * std::size_t(reader.width() / side_) * std::size_t(reader.height() / side_);
+  const std::int64_t stated = frames_stated(reader, part);
+  return stated > 0 && std::size_t(stated) * bytes_ <= kKeptBytes;
+}
+
+// Reads all pictures of the part into memory, so that they are decoded once. False if the file has more
+// frames than it states and they do not fit.
+bool ResponseFrames::keep(const VideoPart& part, BackgroundSampler& sampler) {
+  std::vector<Kept> small(slots());
+  bool fits = true;
+  const auto work = [&](std::size_t slot, GrayF& frame, double t_s) {
+    small[slot] = {t_s, reduced(frame, side_)};
+  };
+  read(part, work, [&](std::size_t slot) {
+    fits = fits && (kept_.size() + 1) * bytes_ <= kKeptBytes;
+    if (fits) kept_.push_back(std::move(small[slot]));
+  });
+  if (!fits) kept_.clear();
+  for (const Kept& k : kept_) {
+    if (sampler.needs_next())
+      sampler.take(k.picture);
+    else
+      sampler.skip();
+  }
+  frames_ = std::int64_t(kept_.size());
+  return fits;
+}
+
+// Reads the pictures of the background only.
+void ResponseFrames::sample(const VideoPart& part, BackgroundSampler& sampler) {
+  const FrameInspector sampling{[&](double) {
+                                  ++frames_;
+                                  const bool needed = sampler.needs_next();
+                                  if (!needed) sampler.skip();
+                                  return needed;
+                                },
+                                [&](const GrayF& frame) -> std::function<void()> {
+                                  GrayF finite = frame;
+                                  sampler.take(reduced(finite, side_));
+                                  return {};
+                                }};
+  inspect_video(video_, part, sampling, threads_, [&](auto, auto) { check_(); });
+}
+
+GrayF ResponseFrames::objects_in(GrayF picture) const {
+  GrayF out = difference(filled_, scaled(std::move(picture), float(sign_)));
   if (!gain_.empty()) multiply(out, gain_);
   return out;
 }
 
 std::size_t ResponseFrames::slots() const { return OrderedWork::slots(threads_); }
 
-void ResponseFrames::each(const VideoPart& part,
-                          const std::function<void(std::size_t, const GrayF&, double)>& work,
+void ResponseFrames::read(const VideoPart& part, const std::function<void(std::size_t, GrayF&, double)>& work,
                           const std::function<void(std::size_t)>& take) const {
   VideoReader reader(video_, part.fps, threads_);
   if (part.from_s > 0) reader.skip_to(part.from_s);
   std::vector<GrayF> frames(slots());
   std::vector<double> times_s(slots());
-  const auto read = [&](std::size_t slot) {
+  const auto next = [&](std::size_t slot) {
     double& t_s = times_s[slot];
     while (reader.next(t_s) && !part.ends_before(t_s)) {
       if (!part.holds(t_s)) continue;
@@ -113,10 +153,41 @@ void ResponseFrames::each(const VideoPart& part,
     }
     return false;
   };
-  OrderedWork pictures(threads_, {read, [&](std::size_t slot, unsigned) {
-                                    work(slot, prepared(frames[slot]), times_s[slot]);
-                                  }});
+  const auto on_frame = [&](std::size_t slot, unsigned) { work(slot, frames[slot], times_s[slot]); };
+  OrderedWork pictures(threads_, {next, on_frame});
   while (const std::optional<std::size_t> slot = pictures.next()) {
+    check_();
+    take(*slot);
+  }
+}
+
+void ResponseFrames::each(const VideoPart& part,
+                          const std::function<void(std::size_t, const GrayF&, double)>& work,
+                          const std::function<void(std::size_t)>& take) const {
+  const double end = part_.to_s.value_or(std::numeric_limits<double>::infinity());
+  const bool within = part.from_s >= part_.from_s && part.to_s.value_or(end) <= end && part.fps == part_.fps;
+  if (kept_.empty() || !within) {
+    read(
+        part,
+        [&](std::size_t slot, GrayF& frame, double t_s) {
+          work(slot, objects_in(reduced(frame, side_)), t_s);
+        },
+        take);
+    return;
+  }
+  std::vector<const Kept*> pictures(slots());
+  std::size_t at = 0;
+  const auto next = [&](std::size_t slot) {
+    while (at < kept_.size() && !part.holds(kept_[at].t_s)) ++at;
+    if (at == kept_.size()) return false;
+    pictures[slot] = &kept_[at++];
+    return true;
+  };
+  const auto on_picture = [&](std::size_t slot, unsigned) {
+    work(slot, objects_in(pictures[slot]->picture), pictures[slot]->t_s);
+  };
+  OrderedWork all(threads_, {next, on_picture});
+  while (const std::optional<std::size_t> slot = all.next()) {
     check_();
     take(*slot);
   }

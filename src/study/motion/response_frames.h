@@ -1,8 +1,10 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <vector>
 
 #include "study/data/video_part.h"
+#include "vision/foreground/background.h"
 #include "vision/image/image.h"
 
 namespace faba {
@@ -19,7 +21,8 @@ inline constexpr int kLongResponseSide = 640;
 /// move are not part of it, long lines such as the edge of a drop are.
 class ResponseFrames {
  public:
-  /// Reads the part once. Throws the errors of VideoReader, and what `check`, called for each frame, throws.
+  /// Reads the part once, and keeps its pictures if they fit into memory. Throws the errors of VideoReader,
+  /// and what `check`, called for each frame, throws.
   ResponseFrames(std::filesystem::path video, const VideoPart& part, unsigned threads,
                  std::function<void()> check);
 
@@ -33,14 +36,25 @@ class ResponseFrames {
   unsigned threads() const { return threads_; }  ///< that work on a video
   /// Number of pictures that are worked on, or held, at a time.
   std::size_t slots() const;
-  /// Reads a part. Threads call work(slot, objects, t_s) for each picture; then take(slot) is called for the
-  /// pictures in order, by the calling thread. Two pictures in work have different slots, below slots().
+  /// Each picture of a part, which may be another one. Threads call work(slot, objects, t_s) for each; then
+  /// take(slot) is called for the pictures in order, by the calling thread. Two pictures in work have
+  /// different slots, below slots().
   void each(const VideoPart& part,
             const std::function<void(std::size_t slot, const GrayF& objects, double t_s)>& work,
             const std::function<void(std::size_t slot)>& take) const;
 
  private:
-  GrayF prepared(GrayF& frame) const;
+  struct Kept {
+    double t_s;
+    GrayF picture;
+  };
+  bool start(const VideoPart& part);
+  bool keep(const VideoPart& part, BackgroundSampler& sampler);
+  void sample(const VideoPart& part, BackgroundSampler& sampler);
+  void read(const VideoPart& part,
+            const std::function<void(std::size_t slot, GrayF& frame, double t_s)>& work,
+            const std::function<void(std::size_t slot)>& take) const;
+  GrayF objects_in(GrayF picture) const;
 
   std::filesystem::path video_;
   unsigned threads_;
@@ -48,8 +62,11 @@ class ResponseFrames {
   int side_ = 1;
   std::int64_t frames_ = 0;
   double size_ = 0, noise_ = 0, sign_ = 1;
-  GrayF filled_;  ///< background in the sense of dark objects
-  GrayF gain_;    ///< factor on the differences of dark objects; empty for bright ones
+  GrayF filled_;            ///< background in the sense of dark objects
+  GrayF gain_;              ///< factor on the differences of dark objects; empty for bright ones
+  std::size_t bytes_ = 0;   ///< of a picture
+  VideoPart part_;          ///< of the constructor
+  std::vector<Kept> kept_;  ///< all pictures of this part, or none
 };
 
 }  // namespace faba
