@@ -6,6 +6,7 @@
 #include <cmath>
 #include <span>
 
+#include "control/plan/obstacles.h"
 #include "control/two_swarms.h"
 #include "field/null.h"
 
@@ -171,6 +172,40 @@ void note_one_direction(const Scenario& s, const Simulation& simulation, Steerin
   }
 }
 
+Vec2 mean_at_start(const Simulation& simulation) {
+  const Columns& cells = simulation.world().state().agents;
+  const auto x = cells["x"], y = cells["y"];
+  Vec2 sum;
+  for (std::size_t i = 0; i < x.size(); ++i) sum = sum + Vec2{double(x[i]), double(y[i])};
+  return (1 / double(x.size())) * sum;
+}
+
+// Obstacles in which the swarm starts, or that leave no way to the first setpoint within the arena.
+void note_obstacles(const Scenario& s, const Simulation& simulation, SteeringNotes& notes) {
+  const std::vector<Polygon> obstacles = simulation.controller().obstacles();
+  const std::vector<Vec2> setpoints = simulation.reference().setpoints();
+  if (obstacles.empty() || setpoints.empty() || simulation.world().state().agents.size() == 0) return;
+  const Vec2 start = mean_at_start(simulation);
+  for (const Polygon& polygon : obstacles)
+    if (nearest_edge(polygon, start).distance < 0) {
+      notes.emplace_back(
+          "controller: the mean of the swarm starts in an obstacle, from which it moves out first; move the "
+          "obstacle or the start of the swarm");
+      return;
+    }
+  const Arena& arena = *simulation.world().parts().arena;
+  const std::vector<Vec2> way = shortest_path(obstacles, start, setpoints.front(), 0);
+  const bool blocked =
+      way.size() == 1 && std::any_of(obstacles.begin(), obstacles.end(),
+                                     [&](const Polygon& p) { return crosses(p, start, setpoints.front()); });
+  const bool outside = std::any_of(way.begin(), way.end() - 1, [&](Vec2 p) { return arena.depth(p) < 0; });
+  if (blocked || outside)
+    notes.push_back(fmt::format(
+        "controller: the obstacles leave no way from the start of the swarm to its first setpoint "
+        "within the {}; leave a gap",
+        s.arena.type));
+}
+
 }  // namespace
 
 void add_steering_notes(const Scenario& s, const Simulation& simulation, SteeringNotes& notes) {
@@ -179,6 +214,7 @@ void add_steering_notes(const Scenario& s, const Simulation& simulation, Steerin
     for (const std::string& text : simulation.controller().notes(simulation.reference().setpoints()))
       notes.push_back(fmt::format("controller: {}", text));
     note_one_direction(s, simulation, notes);
+    note_obstacles(s, simulation, notes);
     if (const auto* two = dynamic_cast<const TwoSwarmController*>(&simulation.controller()))
       note_two_swarms(s, simulation, *two, notes);
     else

@@ -158,6 +158,25 @@ TEST_CASE("a drop or a swarm out of view is noted") {
              {"swarm[0].start: no cell is in the camera view at the start"});
 }
 
+TEST_CASE("obstacles around the start and across the way are noted") {
+  const auto with = [](const std::string& corners) {
+    return notes_of(
+        scene("model = { type = 'dipole', preset = 'IT-1' }\n"
+              "start = { type = 'disc', centre_px = [180, 240], radius_px = 12 }",
+              "[arena]\ntype = 'drop'\nradius_px = 220\n[controller]\ntype = 'mpc'\n"
+              "[[controller.obstacle]]\ncorners_px = " +
+                  corners + "\n[reference]\ntype = 'hold'\nsetpoint_px = [460, 240]\n"));
+  };
+  CHECK(with("[[300, 190], [340, 190], [340, 270], [300, 270]]").empty());
+  const auto around = with("[[140, 200], [220, 200], [220, 280], [140, 280]]");
+  REQUIRE(around.size() == 1);
+  CHECK(around[0].find("the mean of the swarm starts in an obstacle") != std::string::npos);
+  const auto across = with("[[300, 0], [340, 0], [340, 480], [300, 480]]");
+  REQUIRE(across.size() == 1);
+  CHECK(across[0].find("no way from the start of the swarm to its first setpoint within the drop") !=
+        std::string::npos);
+}
+
 TEST_CASE("the scenarios of scenes/ have the notes that they are meant to have") {
   std::vector<std::string> with_notes;
   for (const auto& file : std::filesystem::directory_iterator(FABA_SCENES)) {
