@@ -43,12 +43,9 @@ double persistent_shape(double t, double tau) {
 struct Linear {
   double v2 = 0, offset = 0, chi2 = std::numeric_limits<double>::infinity();
 };
-Linear solve_for(const Msd& m, double tau) {
-  std::vector<double> g, w;
-  for (std::size_t k = 0; k < m.size(); ++k) {
-    g.push_back(persistent_shape(m.lag_s[k], tau));
-    w.push_back(weight_of(m, k));
-  }
+// `w`: weights; `g`: takes the shape.
+Linear solve_for(const Msd& m, double tau, const std::vector<double>& w, std::vector<double>& g) {
+  for (std::size_t k = 0; k < m.size(); ++k) g[k] = persistent_shape(m.lag_s[k], tau);
   Linear out;
   const StraightLine both = straight_line(g, m.msd_px2, w);
   out.v2 = both.slope;
@@ -103,11 +100,13 @@ PersistentFit fit_persistent(const Msd& m) {
   if (m.size() < 4) return fit;
   const double least = 0.2 * m.lag_s.front(), most = 20 * m.lag_s.back();
   constexpr int kSteps = 400;
+  std::vector<double> weights, shape(m.size());
+  for (std::size_t k = 0; k < m.size(); ++k) weights.push_back(weight_of(m, k));
   Linear best;
   int at = 0;
   for (int i = 0; i <= kSteps; ++i) {
     const double tau = least * std::pow(most / least, double(i) / kSteps);
-    const Linear l = solve_for(m, tau);
+    const Linear l = solve_for(m, tau, weights, shape);
     if (l.chi2 < best.chi2) {
       best = l;
       fit.tau_s = tau;

@@ -73,6 +73,7 @@ struct TrackStatistics::Impl {
   Estimated product(std::size_t which, std::vector<ProductSums> TrackGroup::*list) const;
   void test_persistence(TrackSummary& s) const;
   void fit(TrackSummary& s) const;
+  std::size_t fit_all(TrackSummary& s) const;
   void fit_without_groups(TrackSummary& s, double offset, std::size_t skipped) const;
   void motion(TrackSummary& s) const;
 };
@@ -223,7 +224,7 @@ void TrackStatistics::Impl::test_persistence(TrackSummary& s) const {
 }
 
 void TrackStatistics::Impl::fit(TrackSummary& s) const {
-  s.msd = msd_without(nullptr);
+  const std::size_t skipped = fit_all(s);
   const LagSums one = all(0);
   const auto drift = [&](bool x) {
     const auto value = [&](const LagSums& l) { return l.dt > 0 ? (x ? l.dx : l.dy) / l.dt : kNaN; };
@@ -232,6 +233,13 @@ void TrackStatistics::Impl::fit(TrackSummary& s) const {
   };
   s.drift_x_px_s = drift(true);
   s.drift_y_px_s = drift(false);
+  const double offset = s.persists && s.persistent.good ? s.persistent.offset_px2 : s.diffusion.offset_px2;
+  fit_without_groups(s, offset, skipped);
+}
+
+// The fits to the displacements of all groups, without their errors. Returns the number of skipped lags.
+std::size_t TrackStatistics::Impl::fit_all(TrackSummary& s) const {
+  s.msd = msd_without(nullptr);
   test_persistence(s);
   const auto skipped =
       s.persists ? 0
@@ -240,7 +248,7 @@ void TrackStatistics::Impl::fit(TrackSummary& s) const {
   s.persistent = fit_persistent(s.msd);
   const double offset = s.persists && s.persistent.good ? s.persistent.offset_px2 : s.diffusion.offset_px2;
   s.localisation_px = std::sqrt(std::max(0.0, offset / 4));
-  fit_without_groups(s, offset, skipped);
+  return skipped;
 }
 
 // Standard errors and misfit: the same lags and weights with each group left out.
@@ -278,7 +286,7 @@ void TrackStatistics::Impl::fit_without_groups(TrackSummary& s, double offset, s
 void TrackStatistics::Impl::set_interval() {
   has_interval = true;
   TrackSummary s;
-  fit(s);
+  fit_all(s);
   noise2 = s.localisation_px * s.localisation_px;
   if (interval <= 0) {
     interval = 1;
