@@ -17,6 +17,8 @@ export const scenes: Record<string, string> = {
   'One scenario for simulation and bench: a swarm is held at a setpoint by four coils.': 'Um mesmo cenário para simulação e bancada: quatro bobinas mantêm um enxame em um ponto de referência.',
   'One scenario for simulation and bench: a simulation uses the positions of all cells or rendered pictures, and a run on the bench uses the camera and coils of [rig], here a simulated bench in real time.': 'Um mesmo cenário para simulação e bancada: uma simulação usa as posições de todas as células ou imagens renderizadas, e uma execução na bancada usa a câmera e as bobinas de [rig], aqui uma bancada simulada em tempo real.',
   // compact
+  'Around an obstacle': 'Ao redor de um obstáculo',
+  'Two swarms': 'Dois enxames',
   'Gather and move': 'Reunir e mover',
   'Two swarms of opposite polarity between eight coils: each is steered to a setpoint of its own.': 'Dois enxames de polaridade oposta entre oito bobinas: cada um é conduzido a um ponto de ajuste próprio.',
   'A swarm is steered around an obstacle, with little heat in the coils.': 'Um enxame é conduzido ao redor de um obstáculo, com pouco calor nas bobinas.',
