@@ -50,6 +50,7 @@ void ground(cv::Mat& m, const SwarmScene& s) {
 
 void obstacle(cv::Mat& m, const std::vector<Vec2>& polygon) {
   std::vector<cv::Point> corners;
+  corners.reserve(polygon.size());
   for (const Vec2 corner : polygon) corners.push_back(fixed_point(corner));
   cv::fillPoly(m, std::vector{corners}, kObstacle, cv::LINE_AA, kShift);
   cv::polylines(m, std::vector{corners}, true, kObstacleEdge, 1, cv::LINE_AA, kShift);
