@@ -126,13 +126,11 @@ void note_two_swarms(const Scenario& s, const Simulation& simulation, const TwoS
     if (opposite && !controller.opposite())
       notes.emplace_back(
           "controller.second_polarity is \"same\", but the swarms of the scenario have opposite polarity; "
-          "set "
-          "it to \"opposite\"");
+          "set it to \"opposite\"");
     if (!opposite && controller.opposite())
       notes.emplace_back(
           "controller.second_polarity is \"opposite\", but the swarms of the scenario have the same "
-          "polarity; "
-          "set it to \"same\"");
+          "polarity; set it to \"same\"");
   }
   const std::optional<Vec2> second = controller.second_setpoint();
   if (second && simulation.world().parts().arena->depth(*second) < 0)
@@ -180,7 +178,8 @@ Vec2 mean_at_start(const Simulation& simulation) {
   return (1 / double(x.size())) * sum;
 }
 
-// Obstacles in which the swarm starts, or that leave no way to the first setpoint within the arena.
+// Obstacles in which the swarm starts, that enclose it or its first setpoint, or around which the shortest
+// way, which the controller takes, leads outside of the arena.
 void note_obstacles(const Scenario& s, const Simulation& simulation, SteeringNotes& notes) {
   const std::vector<Polygon> obstacles = simulation.controller().obstacles();
   const std::vector<Vec2> setpoints = simulation.reference().setpoints();
@@ -199,10 +198,14 @@ void note_obstacles(const Scenario& s, const Simulation& simulation, SteeringNot
       way.size() == 1 && std::any_of(obstacles.begin(), obstacles.end(),
                                      [&](const Polygon& p) { return crosses(p, start, setpoints.front()); });
   const bool outside = std::any_of(way.begin(), way.end() - 1, [&](Vec2 p) { return arena.depth(p) < 0; });
-  if (blocked || outside)
+  if (blocked)
+    notes.emplace_back(
+        "controller: the obstacles leave no way from the start of the swarm to its first setpoint; leave a "
+        "gap");
+  if (outside)
     notes.push_back(fmt::format(
-        "controller: the obstacles leave no way from the start of the swarm to its first setpoint "
-        "within the {}; leave a gap",
+        "controller: the shortest way around the obstacles from the start of the swarm to its first setpoint "
+        "leads outside of the {}, where the swarm cannot follow; shorten or move an obstacle",
         s.arena.type));
 }
 

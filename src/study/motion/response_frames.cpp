@@ -20,11 +20,10 @@
 namespace faba {
 namespace {
 
-constexpr int kSampled = 40;                    // frames of the median
-constexpr std::size_t kKeptBytes = 256u << 20;  // as BackgroundSampler
-constexpr double kDefaultSize = 4;              // px, as DetectorOptions: when no spot is significant
-constexpr double kSmoothing = 8;                // px: scale of the illumination, for the polarity
-constexpr double kSegmentSizes = 3;             // length of the closing segment over the size of an object
+constexpr int kSampled = 40;         // frames of the median
+constexpr double kDefaultSize = 4;   // px, as DetectorOptions: when no spot is significant
+constexpr double kSmoothing = 8;     // px: scale of the illumination, for the polarity
+constexpr double kSegmentSizes = 3;  // length of the closing segment over the size of an object
 // Of the median light: where it is darker, noise is not amplified more. Assumed.
 constexpr double kLeastLight = 0.3;
 
@@ -55,14 +54,14 @@ GrayF reduced(GrayF& frame, int side) {
 }  // namespace
 
 ResponseFrames::ResponseFrames(std::filesystem::path video, const VideoPart& part, unsigned threads,
-                               std::function<void()> check)
+                               std::function<void()> check, std::size_t most_bytes)
     : video_(std::move(video)),
       threads_(OrderedWork::threads(threads)),
       check_(std::move(check)),
       part_(part) {
   BackgroundSampler sampler(kSampled);
-  const bool fits = start(part);
-  if (!fits || !keep(part, sampler)) sample(part, sampler);
+  const bool fits = measure(part, most_bytes);
+  if (!fits || !keep(part, sampler, most_bytes)) sample(part, sampler);
   if (frames_ == 0) throw Error(Errc::input, video_.string(), "no frame in this part of the video");
   Pool pool(threads_);
   Background median = sampler.background(pool);
@@ -81,26 +80,27 @@ ResponseFrames::ResponseFrames(std::filesystem::path video, const VideoPart& par
   if (polarity == Polarity::dark) gain_ = per_light(filled_);
 }
 
-// Whether all pictures of the part fit into memory, by the number of frames that the file states.
-bool ResponseFrames::start(const VideoPart& part) {
+// The size of the pictures, and whether all of the part fit into memory by the number of frames that the file
+// states.
+bool ResponseFrames::measure(const VideoPart& part, std::size_t most_bytes) {
   const VideoReader reader(video_, part.fps);
   side_ =
       std::max(1, (std::max(reader.width(), reader.height()) + kLongResponseSide - 1) / kLongResponseSide);
   bytes_ = sizeof(float) * std::size_t(reader.width() / side_) * std::size_t(reader.height() / side_);
   const std::int64_t stated = frames_stated(reader, part);
-  return stated > 0 && std::size_t(stated) * bytes_ <= kKeptBytes;
+  return stated > 0 && std::size_t(stated) * bytes_ <= most_bytes;
 }
 
 // Reads all pictures of the part into memory, so that they are decoded once. False if the file has more
 // frames than it states and they do not fit.
-bool ResponseFrames::keep(const VideoPart& part, BackgroundSampler& sampler) {
+bool ResponseFrames::keep(const VideoPart& part, BackgroundSampler& sampler, std::size_t most_bytes) {
   std::vector<Kept> small(slots());
   bool fits = true;
   const auto work = [&](std::size_t slot, GrayF& frame, double t_s) {
     small[slot] = {t_s, reduced(frame, side_)};
   };
   read(part, work, [&](std::size_t slot) {
-    fits = fits && (kept_.size() + 1) * bytes_ <= kKeptBytes;
+    fits = fits && (kept_.size() + 1) * bytes_ <= most_bytes;
     if (fits) kept_.push_back(std::move(small[slot]));
   });
   if (!fits) kept_.clear();
@@ -164,8 +164,9 @@ void ResponseFrames::read(const VideoPart& part, const std::function<void(std::s
 void ResponseFrames::each(const VideoPart& part,
                           const std::function<void(std::size_t, const GrayF&, double)>& work,
                           const std::function<void(std::size_t)>& take) const {
-  const double end = part_.to_s.value_or(std::numeric_limits<double>::infinity());
-  const bool within = part.from_s >= part_.from_s && part.to_s.value_or(end) <= end && part.fps == part_.fps;
+  constexpr double kEnd = std::numeric_limits<double>::infinity();
+  const double end = part_.to_s.value_or(kEnd);
+  const bool within = part.from_s >= part_.from_s && part.to_s.value_or(kEnd) <= end && part.fps == part_.fps;
   if (kept_.empty() || !within) {
     read(
         part,

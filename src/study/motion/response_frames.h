@@ -21,10 +21,10 @@ inline constexpr int kLongResponseSide = 640;
 /// move are not part of it, long lines such as the edge of a drop are.
 class ResponseFrames {
  public:
-  /// Reads the part once, and keeps its pictures if they fit into memory. Throws the errors of VideoReader,
-  /// and what `check`, called for each frame, throws.
+  /// Reads the part once, and keeps its pictures if they need at most `most_bytes`; otherwise they are read
+  /// again by each(). Throws the errors of VideoReader, and what `check`, called for each frame, throws.
   ResponseFrames(std::filesystem::path video, const VideoPart& part, unsigned threads,
-                 std::function<void()> check);
+                 std::function<void()> check, std::size_t most_bytes = 256u << 20);
 
   int side() const { return side_; }          ///< px of the video per px of the pictures
   double object_px() const { return size_; }  ///< full width at half maximum of an object, px of the pictures
@@ -48,8 +48,8 @@ class ResponseFrames {
     double t_s;
     GrayF picture;
   };
-  bool start(const VideoPart& part);
-  bool keep(const VideoPart& part, BackgroundSampler& sampler);
+  bool measure(const VideoPart& part, std::size_t most_bytes);
+  bool keep(const VideoPart& part, BackgroundSampler& sampler, std::size_t most_bytes);
   void sample(const VideoPart& part, BackgroundSampler& sampler);
   void read(const VideoPart& part,
             const std::function<void(std::size_t slot, GrayF& frame, double t_s)>& work,

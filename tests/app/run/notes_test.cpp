@@ -173,7 +173,7 @@ TEST_CASE("obstacles around the start and across the way are noted") {
   CHECK(around[0].find("the mean of the swarm starts in an obstacle") != std::string::npos);
   const auto across = with("[[300, 0], [340, 0], [340, 480], [300, 480]]");
   REQUIRE(across.size() == 1);
-  CHECK(across[0].find("no way from the start of the swarm to its first setpoint within the drop") !=
+  CHECK(across[0].find("from the start of the swarm to its first setpoint leads outside of the drop") !=
         std::string::npos);
 }
 

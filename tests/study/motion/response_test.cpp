@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "study/motion/activity_checks.h"
+#include "study/motion/response_frames.h"
 #include "tests/rendered_video.h"
 #include "tests/temporary_folder.h"
 #include "tests/vision/rendered_cells.h"
@@ -150,4 +151,35 @@ TEST_CASE("response: a wrong direction and a wrong time are named, and no respon
   const auto none = measured(swarm(200, 0, 202, 4));
   REQUIRE(none);
   CHECK_FALSE(no_response_warning(*none));
+}
+
+TEST_CASE("response frames: pictures that are kept and pictures that are read again are equal") {
+  const test::TemporaryFolder f("response-frames");
+  const std::filesystem::path video = f.path() / "v.avi";
+  write_rendered(swarm(60, 0.8, 60, 5), video);
+  const VideoPart part{0.2, 1.0, 0}, longer{0.2, 1.4, 0};
+  const auto pictures = [](const ResponseFrames& frames, const VideoPart& of) {
+    std::vector<std::vector<float>> slots(frames.slots()), all;
+    frames.each(
+        of, [&](std::size_t slot, const GrayF& objects, double) { slots[slot] = objects.px; },
+        [&](std::size_t slot) { all.push_back(slots[slot]); });
+    return all;
+  };
+  const ResponseFrames kept(video, part, 2, [] {}), read(
+                                                        video, part, 2, [] {}, 0);
+  CHECK(kept.frames() == read.frames());
+  CHECK(kept.object_px() == read.object_px());
+  CHECK(kept.noise() == read.noise());
+  const auto expected = pictures(kept, part);
+  CHECK(expected.size() == std::size_t(kept.frames()));
+  CHECK(pictures(read, part) == expected);
+  // Beyond the part of the constructor they are read.
+  auto beyond = pictures(kept, longer);
+  CHECK(beyond.size() > expected.size());
+  CHECK(beyond == pictures(read, longer));
+  beyond.resize(expected.size());
+  CHECK(beyond == expected);
+  VideoPart to_the_end = part;
+  to_the_end.to_s.reset();
+  CHECK(pictures(kept, to_the_end).size() > expected.size());
 }

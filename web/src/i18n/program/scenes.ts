@@ -20,7 +20,7 @@ export const scenes: Record<string, string> = {
   'Around an obstacle': 'Ao redor de um obstáculo',
   'Two swarms': 'Dois enxames',
   'Gather and move': 'Reunir e mover',
-  'Two swarms of opposite polarity between eight coils: each is steered to a setpoint of its own.': 'Dois enxames de polaridade oposta entre oito bobinas: cada um é conduzido a um ponto de ajuste próprio.',
+  'Two swarms of opposite polarity between eight coils: each is steered to a setpoint of its own.': 'Dois enxames de polaridade oposta entre oito bobinas: cada um é conduzido a um ponto de referência próprio.',
   'A swarm is steered around an obstacle, with little heat in the coils.': 'Um enxame é conduzido ao redor de um obstáculo, com pouco calor nas bobinas.',
   'Cells that fill a drop are gathered at its edge, and the compact swarm is moved over half of the drop.': 'Células que preenchem uma gota são reunidas na sua borda, e o enxame compacto é movido por metade da gota.',
   // one-cell-msr1
