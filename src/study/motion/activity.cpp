@@ -242,8 +242,8 @@ void note_motion(VideoActivity& a) {
 }
 
 // Widens the interval of a fraction: the objects in view are a sample, with a binomial variance of at least
-// that of one object. Of the objects that do not respond and swim in random directions, half are within 45
-// degrees of the axis of the response, and add 1 or -1.
+// that of one object. Of the objects that do not respond and swim in random directions, less than half are in
+// the window about the axis of the response, and add 1 or -1.
 void add_sampling_error(Measured& f, double objects) {
   constexpr double k90 = 1.645;  // quantile of the normal distribution for a 90 % interval
   const double least = 1 / objects;

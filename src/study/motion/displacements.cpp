@@ -8,7 +8,7 @@
 #include "core/threads/parallel.h"
 #include "core/units.h"
 #include "core/vec.h"
-#include "study/motion/kernels/correlation_window.h"
+#include "study/motion/displacement_sums.h"
 #include "study/stats/study_random.h"
 #include "vision/cells/spot_fit.h"
 #include "vision/image/kernels/smoothing.h"
@@ -17,116 +17,41 @@ namespace faba {
 namespace {
 
 constexpr std::size_t kMostFrames = 64;
-constexpr int kRadius = kLongestShift, kAcrossMotion = 6;  // px: displacements along and across
-constexpr double kSurroundRatio = 2.5;                     // as in Detector
-constexpr double kThresholdSd = 1.5, kObjectSd = 4;        // of the noise of the band-passed picture
-constexpr int kPairBlocks = 5;                             // of the pairs
-constexpr double kShiftSizes = 1.25;                       // displacement in sizes of an object
+constexpr int kRadius = kLongestShift;
+constexpr int kPairBlocks = 5;     // of the pairs
+constexpr double kShiftSizes = 2;  // displacement in sizes of an object, at least
+// Half of the width of the window across the motion, in sizes of an object. A narrow window has fewer of the
+// objects that swim in other directions, whose number differs by chance between both ways; a wide one has all
+// objects that follow the field, whose directions scatter.
+constexpr double kHalfWidthSizes = 1.4;
 // Standard deviation of the displacements over their mean, at least. Thesis: 45 / 186 for IT-1. Without a
 // limit a few objects with equal speeds, which correlate most, are taken for all. Assumed.
 constexpr double kLeastShiftSpread = 0.15;
 constexpr double kRoughStep = 0.5, kShiftStep = 0.1;  // px: grids of the fitted displacement
 constexpr int kFineSteps = 5;                         // on each side of the rough displacement
-constexpr double kLongestGap = 0.25;                  // s: cells turn and leave the picture
+constexpr double kLongestGap = 0.3;                   // s: cells turn and leave the picture
 constexpr double kExplained = 0.8;                    // fraction of the variance that the model must explain
 constexpr double kSignificant = 3;                    // standard errors of the fraction
 
-using Profile = std::array<double, 2 * kRadius + 1>;  ///< against the displacement along, in px
-
-std::size_t index_of(int displacement) {
-  const int i = displacement + kRadius;
-  return std::size_t(i);
-}
-
-/// A band-passed picture, and the pixels of its objects.
-struct Sparse {
-  GrayF band;                       ///< 0 below the threshold
-  std::vector<SparsePixel> pixels;  ///< of objects, with the value 1
-};
-
-Sparse sparse_of(const GrayF& objects, double size_px, double noise) {
-  Sparse s;
-  const double sd = size_px / kFwhmPerSd;
-  s.band = smoothed(objects, sd);
-  const GrayF wide = smoothed(objects, kSurroundRatio * sd);
-  const double noise_sd = noise / std::sqrt(4 * M_PI * sd * sd);
-  const auto least = float(kThresholdSd * noise_sd), of_objects = float(kObjectSd * noise_sd);
-  for (int r = 0; r < s.band.height; ++r)
-    for (int c = 0; c < s.band.width; ++c) {
-      const std::size_t i = std::size_t(r) * std::size_t(s.band.width) + std::size_t(c);
-      const float v = s.band.px[i] - wide.px[i];
-      s.band.px[i] = std::fabs(v) > least ? v : 0.0F;
-      if (v > of_objects) s.pixels.push_back({c, r, 1});
-    }
-  return s;
-}
-
 // White noise of the video, treated as a picture.
-Sparse noise_picture(const ResponseFrames& frames) {
+ObjectPicture noise_picture(const ResponseFrames& frames) {
   GrayF noise(frames.width(), frames.height());
   StudyRandom random(0, StudyDraws::measurement);
   for (float& v : noise.px) v = float(frames.noise() * random.normal());
-  return sparse_of(noise, frames.object_px(), frames.noise());
+  return object_picture(noise, frames.object_px(), frames.noise());
 }
-
-/// Sums of a picture over the objects of another one against the displacement between the pixels, projected
-/// on a direction.
-class Correlator {
- public:
-  explicit Correlator(double direction_deg)
-      : along_{std::cos(direction_deg * kDegree), std::sin(direction_deg * kDegree)} {
-    for (int dy = -kRadius; dy <= kRadius; ++dy)
-      for (int dx = -kRadius; dx <= kRadius; ++dx)
-        if (inside(dx, dy)) window_.include(dx, dy);
-  }
-  Vec2 along() const { return along_; }
-
-  /// From the first picture to the second: the mean of the second one over the objects of the first and of
-  /// the first one over the objects of the second. Several threads may call it at the same time.
-  Profile between(const Sparse& a, const Sparse& b) const {
-    const Profile forward = one_way(a, b), backward = &a == &b ? forward : one_way(b, a);
-    Profile both{};
-    for (std::size_t i = 0; i < both.size(); ++i)
-      both[i] = 0.5 * (forward[i] + backward[both.size() - 1 - i]);
-    return both;
-  }
-
- private:
-  Profile one_way(const Sparse& a, const Sparse& b) const {
-    const CorrelationSums sums = window_.sums(a.pixels, b.band);
-    Profile profile{};
-    for (int dy = -kRadius; dy <= kRadius; ++dy)
-      for (int dx = -kRadius; dx <= kRadius; ++dx) {
-        if (!inside(dx, dy)) continue;
-        const double s = dx * along_.x + dy * along_.y + kRadius, low = std::floor(s);
-        const auto sum = double(sums.at(dx, dy));
-        profile[std::size_t(low)] += (low + 1 - s) * sum;
-        if (s > low) profile[std::size_t(low) + 1] += (s - low) * sum;
-      }
-    return profile;
-  }
-  bool inside(int dx, int dy) const {
-    const double s = dx * along_.x + dy * along_.y, across = dy * along_.x - dx * along_.y;
-    return std::fabs(s) <= kRadius - 1 && std::fabs(across) <= kAcrossMotion;
-  }
-
-  Vec2 along_;
-  CorrelationWindow window_{kRadius};
-};
 
 /// Sums over the pairs of a block.
 struct PairBlock {
-  Profile next{}, self{};  ///< of pictures with later ones and with themselves
+  DisplacementSums next, self;  ///< of pictures with later ones and with themselves
   /// Mass of the objects by the distance to the border at which they leave, in the first picture of a pair,
   /// or enter, in the second one.
   std::array<double, kRadius> at_border{};
   double mass = 0;  ///< of the objects in both pictures
 
   void add(const PairBlock& o, double sign) {
-    for (std::size_t i = 0; i < next.size(); ++i) {
-      next[i] += sign * o.next[i];
-      self[i] += sign * o.self[i];
-    }
+    next.add(o.next, sign);
+    self.add(o.self, sign);
     for (std::size_t i = 0; i < at_border.size(); ++i) at_border[i] += sign * o.at_border[i];
     mass += sign * o.mass;
   }
@@ -139,11 +64,11 @@ struct PairBlock {
 };
 
 // `towards`: direction to the border.
-void add_mass(PairBlock& b, const Sparse& s, Vec2 towards) {
+void add_mass(PairBlock& b, const ObjectPicture& s, Vec2 towards) {
   for (const SparsePixel& p : s.pixels) {
-    const auto m = double(s.band.at(p.col, p.row));
-    const double right = towards.x > 0 ? s.band.width - 1 - p.col : p.col;
-    const double down = towards.y > 0 ? s.band.height - 1 - p.row : p.row;
+    const auto m = double(s.light.at(p.col, p.row));
+    const double right = towards.x > 0 ? s.light.width - 1 - p.col : p.col;
+    const double down = towards.y > 0 ? s.light.height - 1 - p.row : p.row;
     const double distance =
         std::min(right / std::max(std::fabs(towards.x), 1e-9), down / std::max(std::fabs(towards.y), 1e-9));
     b.mass += m;
@@ -157,23 +82,23 @@ struct ShiftFit {
 };
 
 // Odd part of the correlation of objects with displacements N(shift, sd), for one object per object.
-Profile template_of(const Profile& self, double shift, double sd) {
-  Profile t{};
+ShiftProfile template_of(const ShiftProfile& self, double shift, double sd) {
+  ShiftProfile t{};
   double sum = 0;
   std::array<double, 2 * kRadius + 1> weight{};
   for (int u = -kRadius; u <= kRadius; ++u) {
     // Integral over the pixel, so that a narrow distribution is not missed between two of them.
     const double w =
         std::erf((u + 0.5 - shift) / (sd * M_SQRT2)) - std::erf((u - 0.5 - shift) / (sd * M_SQRT2));
-    weight[index_of(u)] = w;
+    weight[profile_index(u)] = w;
     sum += w;
   }
   for (int u = -kRadius; u <= kRadius; ++u) {
-    const double w = weight[index_of(u)] / sum;
+    const double w = weight[profile_index(u)] / sum;
     if (w < 1e-6) continue;
     for (int s = -kRadius; s <= kRadius; ++s) {
-      if (std::abs(s - u) <= kRadius) t[index_of(s)] += w * self[index_of(s - u)];
-      if (std::abs(s + u) <= kRadius) t[index_of(s)] -= w * self[index_of(s + u)];
+      if (std::abs(s - u) <= kRadius) t[profile_index(s)] += w * self[profile_index(s - u)];
+      if (std::abs(s + u) <= kRadius) t[profile_index(s)] -= w * self[profile_index(s + u)];
     }
   }
   return t;
@@ -190,13 +115,19 @@ void remove_slope(std::array<double, kRadius>& values) {
   for (int s = 1; s < kRadius; ++s) values[std::size_t(s)] -= s * sv / ss;
 }
 
-// `way`: 1 in the direction, -1 against it.
-ShiftFit fit_with(const PairBlock& b, double shift, double sd, double way) {
-  const Profile model = template_of(b.self, shift, sd);
+/// What a distribution of displacements is fitted to.
+struct FitInput {
+  const PairBlock& block;
+  ShiftProfile next, self;  ///< its sums in a window
+  double way = 1;           ///< 1 in the direction, -1 against it
+};
+
+ShiftFit fit_with(const FitInput& in, double shift, double sd) {
+  const ShiftProfile model = template_of(in.self, shift, sd);
   std::array<double, kRadius> t{}, a{};
   for (int s = 1; s < kRadius; ++s) {
-    a[std::size_t(s)] = way * (b.next[index_of(s)] - b.next[index_of(-s)]);
-    t[std::size_t(s)] = model[index_of(s)];
+    a[std::size_t(s)] = in.way * (in.next[profile_index(s)] - in.next[profile_index(-s)]);
+    t[std::size_t(s)] = model[profile_index(s)];
   }
   remove_slope(t);
   remove_slope(a);
@@ -207,13 +138,14 @@ ShiftFit fit_with(const PairBlock& b, double shift, double sd, double way) {
     aa += a[s] * a[s];
   }
   if (!(tt > 0) || !(aa > 0)) return {};
-  return {ta / tt / b.remaining(shift), shift, sd, ta > 0 ? ta * ta / tt / aa : 0};
+  return {ta / tt / in.block.remaining(shift), shift, sd, ta > 0 ? ta * ta / tt / aa : 0};
 }
 
-ShiftFit fit_of(const PairBlock& b, double size, double way) {
+ShiftFit fit_of(const PairBlock& block, const ShiftWindow& window, double size, double way) {
+  const FitInput in{block, block.next.profile(window), block.self.profile(window), way};
   ShiftFit best;
   const auto take = [&](double shift, double sd) {
-    if (const ShiftFit f = fit_with(b, shift, std::max(sd, kLeastShiftSpread * shift), way);
+    if (const ShiftFit f = fit_with(in, shift, std::max(sd, kLeastShiftSpread * shift));
         f.explained > best.explained)
       best = f;
   };
@@ -227,32 +159,49 @@ ShiftFit fit_of(const PairBlock& b, double size, double way) {
   return best;
 }
 
-// Correlation of each picture with itself. Noise correlates with itself only: it is not part of the objects.
-std::vector<Profile> self_of(const std::vector<Sparse>& pictures, const Sparse& noise,
-                             const Correlator& correlate, Pool& pool) {
-  const Profile of_noise = correlate.between(noise, noise);
-  std::vector<Profile> self(pictures.size());
-  pool.run_uneven(pictures.size(), [&](std::size_t k) {
-    self[k] = correlate.between(pictures[k], pictures[k]);
-    for (std::size_t i = 0; i < of_noise.size(); ++i) self[k][i] -= of_noise[i];
+/// Pictures, and the correlation of each with itself. Noise correlates with itself only: it is not part of
+/// the objects.
+struct Pictures {
+  std::vector<ObjectPicture> pictures;
+  std::vector<DisplacementSums> self;
+};
+
+Pictures pictures_of(const ResponseFrames& frames, const VideoPart& part) {
+  Pictures p;
+  std::vector<ObjectPicture> slots(frames.slots());
+  const auto work = [&](std::size_t slot, const GrayF& objects, double) {
+    slots[slot] = object_picture(objects, frames.object_px(), frames.noise());
+  };
+  frames.each(part, work, [&](std::size_t slot) {
+    if (p.pictures.size() < kMostFrames) p.pictures.push_back(std::move(slots[slot]));
   });
-  return self;
+  return p;
 }
 
-std::vector<PairBlock> blocks_of(const std::vector<Sparse>& pictures, const std::vector<Profile>& self,
-                                 std::size_t gap, const Correlator& correlate, Pool& pool) {
+void correlate_with_themselves(Pictures& p, const ObjectPicture& noise, const PictureCorrelator& correlate,
+                               Pool& pool) {
+  const DisplacementSums of_noise = correlate.between(noise, noise);
+  p.self.resize(p.pictures.size());
+  pool.run_uneven(p.pictures.size(), [&](std::size_t k) {
+    p.self[k] = correlate.between(p.pictures[k], p.pictures[k]);
+    p.self[k].add(of_noise, -1);
+  });
+}
+
+std::vector<PairBlock> blocks_of(const Pictures& p, std::size_t gap, Vec2 along,
+                                 const PictureCorrelator& correlate, Pool& pool) {
   std::vector<PairBlock> blocks(kPairBlocks);
-  const std::size_t pairs = pictures.size() - gap;
-  std::vector<Profile> next(pairs);
-  pool.run_uneven(pairs, [&](std::size_t k) { next[k] = correlate.between(pictures[k], pictures[k + gap]); });
+  const std::size_t pairs = p.pictures.size() - gap;
+  std::vector<DisplacementSums> next(pairs);
+  pool.run_uneven(pairs,
+                  [&](std::size_t k) { next[k] = correlate.between(p.pictures[k], p.pictures[k + gap]); });
   for (std::size_t k = 0; k < pairs; ++k) {
     PairBlock& b = blocks[k * kPairBlocks / pairs];
-    for (std::size_t i = 0; i < next[k].size(); ++i) {
-      b.next[i] += next[k][i];
-      b.self[i] += 0.5 * (self[k][i] + self[k + gap][i]);
-    }
-    add_mass(b, pictures[k], correlate.along());
-    add_mass(b, pictures[k + gap], -1 * correlate.along());
+    b.next.add(next[k], 1);
+    b.self.add(p.self[k], 0.5);
+    b.self.add(p.self[k + gap], 0.5);
+    add_mass(b, p.pictures[k], along);
+    add_mass(b, p.pictures[k + gap], -1 * along);
   }
   return blocks;
 }
@@ -267,17 +216,41 @@ std::array<double, 2> jackknife_interval(double value, const std::vector<double>
   return {value - half, value + half};
 }
 
-CommonDisplacement result_of(const std::vector<PairBlock>& blocks, const ShiftFit& fit, const PairBlock& all,
-                             double size, double side, std::size_t gap) {
+// The window turned to the direction in which the objects with about this displacement move, if it is another
+// one.
+ShiftWindow turned_to_motion(const std::vector<PairBlock>& blocks, const PairBlock& all, ShiftWindow window,
+                             double shift) {
+  ShiftWindow wide = window;
+  wide.half_width += PictureCorrelator::kMostTurn * shift;
+  const auto across = [&](const PairBlock& b) { return b.next.across(wide, 0.5 * shift, 1.5 * shift); };
+  std::vector<double> without;
+  for (const PairBlock& b : blocks) {
+    PairBlock rest = all;
+    rest.add(b, -1);
+    without.push_back(across(rest));
+  }
+  const double off = across(all);
+  const std::array<double, 2> interval = jackknife_interval(off, without, 0);
+  if (interval[0] <= 0 && interval[1] >= 0) return window;
+  const double turn =
+      std::clamp(std::atan2(off, shift), -PictureCorrelator::kMostTurn, PictureCorrelator::kMostTurn);
+  const double c = std::cos(turn), s = std::sin(turn);
+  window.along = {c * window.along.x - s * window.along.y, s * window.along.x + c * window.along.y};
+  return window;
+}
+
+// `scale`: px of the video per frame, of one px along the direction between two pictures.
+CommonDisplacement result_of(const std::vector<PairBlock>& blocks, const PairBlock& all,
+                             const ShiftWindow& window, double size, double scale) {
+  const ShiftFit fit = fit_of(all, window, size, 1);
   std::vector<double> fractions, shifts;
   for (const PairBlock& b : blocks) {
     PairBlock rest = all;
     rest.add(b, -1);
-    const ShiftFit f = fit_of(rest, size, 1);
+    const ShiftFit f = fit_of(rest, window, size, 1);
     fractions.push_back(f.fraction);
     shifts.push_back(f.shift);
   }
-  const double scale = side / double(gap);
   CommonDisplacement c;
   c.fraction = fit.fraction;
   c.shift_px = fit.shift * scale;
@@ -287,8 +260,7 @@ CommonDisplacement result_of(const std::vector<PairBlock>& blocks, const ShiftFi
   c.clear = fit.explained > kExplained && c.fraction > 0 &&
             (c.fraction_ci90[1] - c.fraction) * kSignificant / student_t_quantile(0.95, kPairBlocks - 1) <
                 c.fraction;
-  c.opposite = fit_of(all, size, -1).fraction;
-  c.gap = int(gap);
+  c.opposite = fit_of(all, window, size, -1).fraction;
   return c;
 }
 
@@ -297,27 +269,26 @@ CommonDisplacement result_of(const std::vector<PairBlock>& blocks, const ShiftFi
 std::optional<CommonDisplacement> common_displacement(const ResponseFrames& frames, const VideoPart& part,
                                                       double direction_deg, double frame_s) {
   const double size = frames.object_px();
-  std::vector<Sparse> pictures;
-  std::vector<Sparse> slots(frames.slots());
-  const auto work = [&](std::size_t slot, const GrayF& objects, double) {
-    slots[slot] = sparse_of(objects, size, frames.noise());
-  };
-  frames.each(part, work, [&](std::size_t slot) {
-    if (pictures.size() < kMostFrames) pictures.push_back(std::move(slots[slot]));
-  });
-  if (pictures.size() < kLeastShiftFrames) return {};
+  Pictures p = pictures_of(frames, part);
+  if (p.pictures.size() < kLeastShiftFrames) return {};
   Pool pool(frames.threads());
-  const Correlator correlate(direction_deg);
-  const std::vector<Profile> self = self_of(pictures, noise_picture(frames), correlate, pool);
+  const Vec2 along{std::cos(direction_deg * kDegree), std::sin(direction_deg * kDegree)};
+  const ShiftWindow window{along, kHalfWidthSizes * size};
+  const PictureCorrelator correlate(window);
+  correlate_with_themselves(p, noise_picture(frames), correlate, pool);
   for (std::size_t gap = 1;; gap *= 2) {
-    const std::vector<PairBlock> blocks = blocks_of(pictures, self, gap, correlate, pool);
+    const std::vector<PairBlock> blocks = blocks_of(p, gap, along, correlate, pool);
     PairBlock all;
     for (const PairBlock& b : blocks) all.add(b, 1);
     if (!(all.mass > 0)) return {};
-    const ShiftFit fit = fit_of(all, size, 1);
-    const bool longer = fit.shift < kShiftSizes * size && 2 * double(gap) * frame_s <= kLongestGap &&
-                        pictures.size() >= 2 * gap + kLeastShiftFrames;
-    if (!longer) return result_of(blocks, fit, all, size, frames.side(), gap);
+    const double shift = fit_of(all, window, size, 1).shift;
+    const bool longer = shift < kShiftSizes * size && 2 * double(gap) * frame_s <= kLongestGap &&
+                        p.pictures.size() >= 2 * gap + kLeastShiftFrames;
+    if (longer) continue;
+    const ShiftWindow turned = turned_to_motion(blocks, all, window, shift);
+    CommonDisplacement c = result_of(blocks, all, turned, size, frames.side() / double(gap));
+    c.gap = int(gap);
+    return c;
   }
 }
 

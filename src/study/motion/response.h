@@ -12,7 +12,7 @@ namespace faba {
 /// Part in which speed and fraction of the responding objects are measured: it starts kResponseWait after the
 /// rise, because cells that leave an edge together overlap before, and has the length kResponsePart. s,
 /// assumed.
-inline constexpr double kResponseWait = 0.3, kResponsePart = 1;
+inline constexpr double kResponseWait = 0.3, kResponsePart = 1.5;
 
 /// Whether the optical flow of a video has a direction, from the displacement of the objects that respond.
 struct FlowVerdict {
@@ -45,7 +45,7 @@ struct Response {
   /// Without a response in a given direction: that of another significant change of the velocity.
   std::optional<double> other_direction_deg = {};
   std::string fraction_method;  ///< of `fraction`; empty when it is unknown
-  /// Of the objects in view from 0.3 to 1.3 s after the rise; 0: no response.
+  /// Of the objects in view from 0.3 to 1.8 s after the rise; 0: no response.
   std::optional<Measured> fraction;
   std::optional<Measured> speed_px_s;  ///< mean, along the direction, of the responding objects
   std::optional<FlowVerdict> flow;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "study/drop/drop_warnings.h"
+#include "study/motion/displacement_sums.h"
 #include "study/motion/displacements.h"
 #include "study/motion/response.h"
 #include "study/motion/response_frames.h"

@@ -53,9 +53,9 @@ RenderedVideo swarm(int count, double responding, double speed_px_s, std::uint64
   return v;
 }
 
-/// Cells on the dark line along the edge of a drop, one after another. Every second one leaves it to the
+/// Cells on the dark line along the edge of a drop, with a distance in px. Every second one leaves it to the
 /// right after the reversal; the others stay.
-RenderedVideo at_the_edge(double speed_px_s) {
+RenderedVideo at_the_edge(double speed_px_s, double distance) {
   RenderedVideo v;
   v.frames = 60;
   v.microscope.cell_diameter = 2.5e-6;
@@ -63,7 +63,7 @@ RenderedVideo at_the_edge(double speed_px_s) {
   cells::Dice dice(7);
   std::vector<Vec2> starts;
   std::vector<double> speeds;
-  for (double y = 20; y < 220; y += 3) {
+  for (double y = 20; y < 220; y += distance) {
     const double depth = 1 + dice.uniform(), inner = v.edge.radius - depth, dy = y - v.edge.centre.y;
     starts.push_back({v.edge.centre.x - std::sqrt(inner * inner - dy * dy), y});
     speeds.push_back(starts.size() % 2 ? speed_px_s * (1 + 0.24 * dice.normal()) : 0);
@@ -117,15 +117,56 @@ TEST_CASE("response: none of cells that swim in random directions") {
   CHECK_FALSE(r->speed_px_s);
 }
 
-// Cells absorb less light on the dark edge, and overlap. The fraction must not depend on either.
+// Cells absorb less light on the dark edge. The fraction must not depend on it, or on the number of cells.
 TEST_CASE("response: cells that stay on the dark edge of a drop are as many as those that leave it") {
   const double speed = 60;
-  const auto r = measured(at_the_edge(speed));
+  for (const double distance : {6.0, 9.0, 12.0}) {
+    CAPTURE(distance);
+    const auto r = measured(at_the_edge(speed, distance));
+    REQUIRE(r);
+    REQUIRE(r->fraction);
+    CHECK(std::fabs(r->fraction->value - 0.5) < 0.1);
+    REQUIRE(r->speed_px_s);
+    CHECK(std::fabs(r->speed_px_s->value / speed - 1) < 0.1);
+  }
+}
+
+// Those that stay are 6 px from each other, with a width of 2.4 px: the gaps between them are part of a line.
+TEST_CASE("response: a row of cells that stays on the edge counts in part") {
+  const auto r = measured(at_the_edge(60, 3));
   REQUIRE(r);
   REQUIRE(r->fraction);
-  CHECK(std::fabs(r->fraction->value - 0.5) < 0.1);
-  REQUIRE(r->speed_px_s);
-  CHECK(std::fabs(r->speed_px_s->value / speed - 1) < 0.1);
+  CHECK(std::fabs(r->fraction->value - 0.5) < 0.2);
+}
+
+// Most cells swim in random directions. Two fifths of them are within 35 degrees of the axis of the response,
+// and their numbers in both ways differ by chance. The root mean square of eight such errors is above 1.4
+// times its expected value once in 20 times (chi-square).
+TEST_CASE("response: a quarter of the cells of an old sample respond") {
+  constexpr int kSamples = 8, kCells = 180;
+  constexpr double kFraction = 0.25, kInView = 0.6 * kCells, kSpeed = 55;
+  double sum = 0, squares = 0;
+  for (std::uint64_t seed = 1; seed <= kSamples; ++seed) {
+    const auto r = measured(swarm(kCells, kFraction, kSpeed, seed));
+    REQUIRE(r);
+    REQUIRE(r->fraction);
+    REQUIRE(r->speed_px_s);
+    CHECK(std::fabs(r->speed_px_s->value / kSpeed - 1) < 0.15);
+    sum += r->fraction->value - kFraction;
+    squares += std::pow(r->fraction->value - kFraction, 2);
+  }
+  const double by_chance = std::sqrt(0.4 * (1 - kFraction) / kInView);
+  CHECK(std::fabs(sum / kSamples) < 2 * by_chance / std::sqrt(kSamples));
+  CHECK(std::sqrt(squares / kSamples) < 1.4 * by_chance);
+}
+
+TEST_CASE("response: the fraction does not depend on an error of the direction of 15 degrees") {
+  const RenderedVideo v = swarm(180, 0.8, 55, 5);
+  const auto exact = measured(v), off = measured(v, 15);
+  REQUIRE((exact && exact->fraction && exact->speed_px_s));
+  REQUIRE((off && off->fraction && off->speed_px_s));
+  CHECK(std::fabs(off->fraction->value - exact->fraction->value) < 0.05);
+  CHECK(std::fabs(off->speed_px_s->value / exact->speed_px_s->value - 1) < 0.05);
 }
 
 TEST_CASE("response: a wrong direction and a wrong time are named, and no response is without warning") {

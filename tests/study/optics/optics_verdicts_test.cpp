@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "study/motion/displacements.h"
 #include "study/motion/response.h"
 #include "study/tracks/track_warnings.h"
 
@@ -108,7 +109,7 @@ TEST_CASE("response: time in view, frames, displacement and number of cells") {
   CHECK(quality(o, PlannedMeasurement::response) == Quality::doubtful);
   OpticsSetup slow;
   slow.speed = 20e-6;
-  slow.frame_rate = 5;
+  slow.frame_rate = 0.9 * double(kLeastShiftFrames) / kResponsePart;
   CHECK(verdict(slow, PlannedMeasurement::response).warnings.at(0).aspect == "frames");
 }
 
