@@ -21,7 +21,7 @@ constexpr int kRadius = kLongestShift;
 constexpr int kPairBlocks = 5;     // of the pairs
 constexpr double kShiftSizes = 2;  // displacement in sizes of an object, at least
 // Half of the width of the window across the motion, in sizes of an object. A narrow window has fewer of the
-// objects that swim in other directions, whose number differs by chance between both ways; a wide one has all
+// objects that swim in other directions, whose number differs at random between both ways; a wide one has all
 // objects that follow the field, whose directions scatter.
 constexpr double kHalfWidthSizes = 1.4;
 // Standard deviation of the displacements over their mean, at least. Thesis: 45 / 186 for IT-1. Without a

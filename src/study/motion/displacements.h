@@ -34,8 +34,8 @@ struct CommonDisplacement {
 ///
 /// `direction_deg`: image frame; the objects may move in a direction up to 20 degrees off, shifts are along
 /// theirs. Uses up to 64 frames of `part`; the gap between compared pictures is increased up to 0.3 s
-/// until the displacement is twice the size of an object, so that objects that move in other directions can
-/// be told apart. Empty with fewer than six frames or without any object.
+/// until the displacement is twice the size of an object, so that objects that move in other directions are
+/// distinguished. Empty with fewer than six frames or without any object.
 std::optional<CommonDisplacement> common_displacement(const ResponseFrames& frames, const VideoPart& part,
                                                       double direction_deg, double frame_s);
 

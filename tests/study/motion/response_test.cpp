@@ -140,7 +140,7 @@ TEST_CASE("response: a row of cells that stays on the edge counts in part") {
 }
 
 // Most cells swim in random directions. Two fifths of them are within 35 degrees of the axis of the response,
-// and their numbers in both ways differ by chance. The root mean square of eight such errors is above 1.4
+// and their numbers in both ways differ at random. The root mean square of eight such errors is above 1.4
 // times its expected value once in 20 times (chi-square).
 TEST_CASE("response: a quarter of the cells of an old sample respond") {
   constexpr int kSamples = 8, kCells = 180;
@@ -155,9 +155,9 @@ TEST_CASE("response: a quarter of the cells of an old sample respond") {
     sum += r->fraction->value - kFraction;
     squares += std::pow(r->fraction->value - kFraction, 2);
   }
-  const double by_chance = std::sqrt(0.4 * (1 - kFraction) / kInView);
-  CHECK(std::fabs(sum / kSamples) < 2 * by_chance / std::sqrt(kSamples));
-  CHECK(std::sqrt(squares / kSamples) < 1.4 * by_chance);
+  const double at_random = std::sqrt(0.4 * (1 - kFraction) / kInView);
+  CHECK(std::fabs(sum / kSamples) < 2 * at_random / std::sqrt(kSamples));
+  CHECK(std::sqrt(squares / kSamples) < 1.4 * at_random);
 }
 
 TEST_CASE("response: the fraction does not depend on an error of the direction of 15 degrees") {
