@@ -89,19 +89,21 @@ bool PictureCorrelator::inside(int dx, int dy) const {
 }
 
 DisplacementSums PictureCorrelator::between(const ObjectPicture& a, const ObjectPicture& b) const {
-  DisplacementSums both;
-  add_one_way(both, a, b, 1);
-  add_one_way(both, b, a, -1);
-  return both;
+  const CorrelationSums forward = compared_.sums(a.pixels, b.light);
+  if (&a == &b) return mean_of_both(forward, forward);
+  return mean_of_both(forward, compared_.sums(b.pixels, a.light));
 }
 
-void PictureCorrelator::add_one_way(DisplacementSums& to, const ObjectPicture& a, const ObjectPicture& b,
-                                    int sign) const {
-  const CorrelationSums sums = compared_.sums(a.pixels, b.light);
+// The second sums are those of the way back.
+DisplacementSums PictureCorrelator::mean_of_both(const CorrelationSums& forward,
+                                                 const CorrelationSums& backward) const {
+  DisplacementSums mean;
   for (int dy = -kLongestShift; dy <= kLongestShift; ++dy)
     for (int dx = -kLongestShift; dx <= kLongestShift; ++dx)
       if (inside(dx, dy))
-        to.sums_[DisplacementSums::index(sign * dx, sign * dy)] += 0.5 * double(sums.at(dx, dy));
+        mean.sums_[DisplacementSums::index(dx, dy)] =
+            0.5 * (double(forward.at(dx, dy)) + double(backward.at(-dx, -dy)));
+  return mean;
 }
 
 }  // namespace faba

@@ -65,7 +65,7 @@ class PictureCorrelator {
   static constexpr double kMostTurn = 0.35;  ///< rad. Assumed
 
  private:
-  void add_one_way(DisplacementSums& to, const ObjectPicture& a, const ObjectPicture& b, int sign) const;
+  DisplacementSums mean_of_both(const CorrelationSums& forward, const CorrelationSums& backward) const;
   bool inside(int dx, int dy) const;
   ShiftWindow window_;
   CorrelationWindow compared_{kLongestShift};
