@@ -54,6 +54,9 @@ def cells():
             kappa, w = m * b / KT, w_per_t * b
             print(f"     {name:<6} {b * 1e6:6.0f} uT {kappa:8.3g} {w:10.3g} {alignment(kappa):8.3f} "
                   f"{np.pi * speed / w:14.3g} {w / 2 / np.pi:16.3g}")
+    p = 5e-6 / 0.5e-6  # rod of 5 um x 0.5 um [S66]
+    f_rod = np.pi * WATER * (5e-6) ** 3 / (3 * (np.log(p) - 0.662 + 0.917 / p - 0.05 / p**2))
+    print(f"     rod of 5 um x 0.5 um with the moment of MSR-1: {1e-3 * 2e-16 / f_rod:.2f} rad/(mT s)")
     print(f"     Reynolds number at 186 um/s, 1.4 um: {1000 * 186e-6 * 1.4e-6 / WATER:.1e}")
 
 

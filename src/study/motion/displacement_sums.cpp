@@ -14,6 +14,9 @@ namespace {
 constexpr double kSurroundRatio = 10;
 constexpr double kThresholdSd = 1.5, kObjectSd = 4;  // of the noise of the smoothed picture
 
+// Samples of an object across its width, at least: the smoothed picture has no finer details.
+constexpr double kSamples = 2.4;
+
 /// A displacement along a direction and across it, px.
 struct Turned {
   double along = 0, across = 0;
@@ -37,12 +40,13 @@ ObjectPicture object_picture(const GrayF& objects, double size_px, double noise)
   const GrayF wide = smoothed(objects, kSurroundRatio * sd);
   const double noise_sd = noise / std::sqrt(4 * M_PI * sd * sd);
   const auto least = float(kThresholdSd * noise_sd), of_objects = float(kObjectSd * noise_sd);
+  const int every = std::max(1, int(size_px / kSamples));
   for (int r = 0; r < p.light.height; ++r)
     for (int c = 0; c < p.light.width; ++c) {
       const std::size_t i = std::size_t(r) * std::size_t(p.light.width) + std::size_t(c);
       const float v = p.light.px[i] - wide.px[i];
       p.light.px[i] = std::fabs(v) > least ? v : 0.0F;
-      if (v > of_objects) p.pixels.push_back({c, r, 1});
+      if (v > of_objects && r % every == 0 && c % every == 0) p.pixels.push_back({c, r, 1});
     }
   return p;
 }

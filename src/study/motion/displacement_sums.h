@@ -21,7 +21,7 @@ inline std::size_t profile_index(int displacement) {
 /// A picture of objects, smoothed over the size of an object, and their pixels.
 struct ObjectPicture {
   GrayF light;                      ///< less that of the surround; 0 below the noise
-  std::vector<SparsePixel> pixels;  ///< of objects, with the value 1
+  std::vector<SparsePixel> pixels;  ///< of objects, with the value 1; of wide ones not all
 };
 
 /// `objects`: a picture of ResponseFrames; `size_px`: full width at half maximum of an object; `noise`:
