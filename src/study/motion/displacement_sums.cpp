@@ -15,7 +15,7 @@ constexpr double kSurroundRatio = 10;
 constexpr double kThresholdSd = 1.5, kObjectSd = 4;  // of the noise of the smoothed picture
 
 // Samples of an object across its width, at least: the smoothed picture has no finer details.
-constexpr double kSamples = 2.4;
+constexpr double kSamplesAcross = 2.4;
 
 /// A displacement along a direction and across it, px.
 struct Turned {
@@ -40,7 +40,7 @@ ObjectPicture object_picture(const GrayF& objects, double size_px, double noise)
   const GrayF wide = smoothed(objects, kSurroundRatio * sd);
   const double noise_sd = noise / std::sqrt(4 * M_PI * sd * sd);
   const auto least = float(kThresholdSd * noise_sd), of_objects = float(kObjectSd * noise_sd);
-  const int every = std::max(1, int(size_px / kSamples));
+  const int every = std::max(1, int(size_px / kSamplesAcross));
   for (int r = 0; r < p.light.height; ++r)
     for (int c = 0; c < p.light.width; ++c) {
       const std::size_t i = std::size_t(r) * std::size_t(p.light.width) + std::size_t(c);
