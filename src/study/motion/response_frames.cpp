@@ -25,9 +25,9 @@ constexpr double kDefaultSize = 4;  // px, as DetectorOptions: when no spot is s
 constexpr double kSmoothing = 8;    // px: scale of the illumination, for the polarity
 // Length of the closing segment over the size of an object. A cell that stays beside the dark edge of a drop
 // is filled up to the level at the ends of a segment that leads from the edge through the cell: of a short
-// one this level is nearly that of the cell, which then loses half of its contrast. Assumed; a segment of 8
-// sizes of 3 px departs by 0.7 px from an edge with a radius of 100 px.
-constexpr double kSegmentSizes = 8;
+// one this level is nearly that of the cell, which then counts too little. Of a long one the edge of a small
+// drop is not filled and counts as objects. Assumed.
+constexpr double kSegmentSizes = 6;
 // Of the median light: where it is darker, noise is not amplified more. Assumed.
 constexpr double kLeastLight = 0.3;
 

@@ -117,26 +117,20 @@ TEST_CASE("response: none of cells that swim in random directions") {
   CHECK_FALSE(r->speed_px_s);
 }
 
-// Cells absorb less light on the dark edge. The fraction must not depend on it, or on the number of cells.
+// Cells absorb less light on the dark edge. The fraction depends little on it, and on the number of cells:
+// the limits are those of docs/theory/video.md.
 TEST_CASE("response: cells that stay on the dark edge of a drop are as many as those that leave it") {
   const double speed = 60;
-  for (const double distance : {6.0, 9.0, 12.0}) {
+  for (const double distance : {3.0, 6.0, 9.0, 12.0}) {
     CAPTURE(distance);
     const auto r = measured(at_the_edge(speed, distance));
     REQUIRE(r);
     REQUIRE(r->fraction);
-    CHECK(std::fabs(r->fraction->value - 0.5) < 0.1);
+    const double limit = distance < 6 ? 0.25 : 0.15;
+    CHECK(std::fabs(r->fraction->value - 0.5) < limit);
     REQUIRE(r->speed_px_s);
     CHECK(std::fabs(r->speed_px_s->value / speed - 1) < 0.1);
   }
-}
-
-// Those that stay are 6 px from each other, with a width of 2.4 px: the gaps between them are part of a line.
-TEST_CASE("response: a row of cells that stays on the edge counts in part") {
-  const auto r = measured(at_the_edge(60, 3));
-  REQUIRE(r);
-  REQUIRE(r->fraction);
-  CHECK(std::fabs(r->fraction->value - 0.5) < 0.2);
 }
 
 // Most cells swim in random directions. Two fifths of them are within 35 degrees of the axis of the response,
