@@ -10,8 +10,6 @@
 #include "core/vec.h"
 #include "study/motion/displacement_sums.h"
 #include "study/stats/study_random.h"
-#include "vision/cells/spot_fit.h"
-#include "vision/image/kernels/smoothing.h"
 
 namespace faba {
 namespace {
