@@ -28,7 +28,8 @@ struct ObjectPicture {
 /// standard deviation of a pixel.
 ObjectPicture object_picture(const GrayF& objects, double size_px, double noise);
 
-/// Directions that are compared: `along`, a unit vector, and half of the width of the window across it, px.
+/// The displacements of a profile: those along a direction, a unit vector in the image frame, and up to
+/// `half_width` px across it.
 struct ShiftWindow {
   Vec2 along{1, 0};
   double half_width = 0;

@@ -20,7 +20,8 @@ constexpr int kPairBlocks = 5;     // of the pairs
 constexpr double kShiftSizes = 2;  // displacement in sizes of an object, at least
 // Half of the width of the window across the motion, in sizes of an object. A narrow window has fewer of the
 // objects that swim in other directions, whose number differs at random between both ways; a wide one has all
-// objects that follow the field, whose directions scatter.
+// objects that follow the field, whose directions scatter. Assumed, as the displacement above and the time
+// below.
 constexpr double kHalfWidthSizes = 1.4;
 // Standard deviation of the displacements over their mean, at least. Thesis: 45 / 186 for IT-1. Without a
 // limit a few objects with equal speeds, which correlate most, are taken for all. Assumed.
@@ -214,8 +215,8 @@ std::array<double, 2> jackknife_interval(double value, const std::vector<double>
   return {value - half, value + half};
 }
 
-// The window turned to the direction in which the objects with about this displacement move, if it is another
-// one.
+// The window turned to the direction in which the objects with about this displacement move, if it differs
+// from the expected one by more than the 90 % interval.
 ShiftWindow turned_to_motion(const std::vector<PairBlock>& blocks, const PairBlock& all, ShiftWindow window,
                              double shift) {
   ShiftWindow wide = window;

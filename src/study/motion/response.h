@@ -47,7 +47,8 @@ struct Response {
   std::string fraction_method;  ///< of `fraction`; empty when it is unknown
   /// Of the objects in view from 0.3 to 1.8 s after the rise; 0: no response.
   std::optional<Measured> fraction;
-  std::optional<Measured> speed_px_s;  ///< mean, along the direction, of the responding objects
+  std::optional<Measured>
+      speed_px_s;  ///< mean, in the direction in which they move, of the responding objects
   std::optional<FlowVerdict> flow;
 };
 

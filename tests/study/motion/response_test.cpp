@@ -145,6 +145,7 @@ TEST_CASE("response: a quarter of the cells of an old sample respond") {
     REQUIRE(r);
     REQUIRE(r->fraction);
     REQUIRE(r->speed_px_s);
+    // Three standard errors of the mean of 27 speeds that differ by 24 %.
     CHECK(std::fabs(r->speed_px_s->value / kSpeed - 1) < 0.15);
     sum += r->fraction->value - kFraction;
     squares += std::pow(r->fraction->value - kFraction, 2);
@@ -154,6 +155,7 @@ TEST_CASE("response: a quarter of the cells of an old sample respond") {
   CHECK(std::sqrt(squares / kSamples) < 1.4 * at_random);
 }
 
+// Both within half of the goals of bench/ageing.py.
 TEST_CASE("response: the fraction does not depend on an error of the direction of 15 degrees") {
   const RenderedVideo v = swarm(180, 0.8, 55, 5);
   const auto exact = measured(v), off = measured(v, 15);
