@@ -11,7 +11,7 @@ namespace {
 
 // Of the surround, which is subtracted, over the size of an object. A narrow one would be reduced by the
 // neighbours in a row of objects, so that they counted less than single ones.
-constexpr double kSurroundRatio = 8;
+constexpr double kSurroundRatio = 14;
 constexpr double kThresholdSd = 1.5, kObjectSd = 4;  // of the noise of the smoothed picture
 
 // Samples of an object across its width, at least: the smoothed picture has no finer details.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "core/statistics.h"
 #include "core/threads/ordered_work.h"
 #include "study/data/frame_inspector.h"
+#include "study/drop/proposed_drop.h"
 #include "study/tracks/track_survey.h"
 #include "vision/cells/detector.h"
 #include "vision/foreground/kernels/line_closing.h"
@@ -25,9 +27,11 @@ constexpr double kDefaultSize = 4;  // px, as DetectorOptions: when no spot is s
 constexpr double kSmoothing = 8;    // px: scale of the illumination, for the polarity
 // Length of the closing segment over the size of an object. A cell that stays beside the dark edge of a drop
 // is filled up to the level at the ends of a segment that leads from the edge through the cell: of a short
-// one this level is nearly that of the cell, which then counts too little. Of a long one the edge of a small
-// drop is not filled and counts as objects. Assumed.
-constexpr double kSegmentSizes = 6;
+// one this level is nearly that of the cell, which then counts too little. Assumed.
+constexpr double kSegmentSizes = 10;
+// Values that belong to the background: within this number of standard deviations of the noise and half a
+// step of 8 bits of its median.
+constexpr double kBackgroundSd = 3, kHalfStep = 0.5;
 // Of the median light: where it is darker, noise is not amplified more. Assumed.
 constexpr double kLeastLight = 0.3;
 
@@ -44,6 +48,30 @@ GrayF per_light(const GrayF& background) {
   GrayF out = background;
   for (float& v : out.px) v = middle > 0 ? middle / std::max(v, float(kLeastLight) * middle) : 1.0F;
   return out;
+}
+
+// The median of pictures, refined by the mean of their values near it: a median of integers is an integer,
+// and where the light differs little its rounding has the form of wide objects.
+void refine(Background& median, const std::vector<GrayF>& pictures) {
+  GrayF& level = median.level;
+  std::vector<float> sums(level.px.size()), counts(level.px.size());
+  for (const GrayF& picture : pictures)
+    for (std::size_t i = 0; i < level.px.size(); ++i) {
+      const float d = picture.px[i] - level.px[i];
+      const bool near = std::fabs(d) < float(kBackgroundSd) * median.noise_sd.px[i] + float(kHalfStep);
+      sums[i] += near ? d : 0.0F;
+      counts[i] += near ? 1.0F : 0.0F;
+    }
+  for (std::size_t i = 0; i < level.px.size(); ++i) level.px[i] += sums[i] / std::max(counts[i], 1.0F);
+}
+
+// The background with small objects filled. The segments are bent as the edge of the drop, so that the edge
+// of a small drop does not count as objects.
+GrayF filled(const GrayF& background, double size_px, const std::string& name) {
+  const double length = std::max(3.0, kSegmentSizes * size_px);
+  const ProposedDrop drop = propose_drop(background, name);
+  return drop.edge ? line_closing(background, length, drop.radius_px).least
+                   : line_closing(background, length).least;
 }
 
 // Averages over squares of `side` px.
@@ -80,7 +108,8 @@ ResponseFrames::ResponseFrames(std::filesystem::path video, const VideoPart& par
   size_ = spot_size(middle, median, polarity, pool).px;
   if (!(size_ > 0)) size_ = spot_size(middle, smooth, polarity, pool).px;
   if (!(size_ > 0)) size_ = kDefaultSize;
-  filled_ = line_closing(scaled(median.level, float(sign_)), std::max(3.0, kSegmentSizes * size_)).least;
+  refine(median, sampler.kept());
+  filled_ = filled(scaled(std::move(median.level), float(sign_)), size_, video_.string());
   if (polarity == Polarity::dark) gain_ = per_light(filled_);
 }
 

@@ -117,20 +117,46 @@ TEST_CASE("response: none of cells that swim in random directions") {
   CHECK_FALSE(r->speed_px_s);
 }
 
-// Cells absorb less light on the dark edge. The fraction depends little on it, and on the number of cells:
-// the limits are those of docs/theory/video.md.
+// Cells absorb less light on the dark edge, and overlap. The fraction must not depend on either.
 TEST_CASE("response: cells that stay on the dark edge of a drop are as many as those that leave it") {
   const double speed = 60;
-  for (const double distance : {3.0, 6.0, 9.0, 12.0}) {
+  for (const double distance : {3.0, 4.0, 6.0, 9.0, 12.0}) {
     CAPTURE(distance);
     const auto r = measured(at_the_edge(speed, distance));
     REQUIRE(r);
     REQUIRE(r->fraction);
-    const double limit = distance < 6 ? 0.25 : 0.15;
-    CHECK(std::fabs(r->fraction->value - 0.5) < limit);
+    CHECK(std::fabs(r->fraction->value - 0.5) < 0.1);
     REQUIRE(r->speed_px_s);
     CHECK(std::fabs(r->speed_px_s->value / speed - 1) < 0.1);
   }
+}
+
+// The dark line of the edge, 27 sizes of a cell in radius, is longer than the cells together.
+TEST_CASE("response: the edge of a small drop does not count as objects") {
+  RenderedVideo v = swarm(60, 1, 60, 6);
+  v.edge = {{159.5, 119.5}, 80};
+  const auto inside = v.cells;
+  v.cells = [inside, v](double t) {
+    std::vector<CameraCell> all = inside(t), some;
+    for (const CameraCell& c : all)
+      if (norm(Vec2{c.x, c.y} - v.edge.centre) < v.edge.radius - 5) some.push_back(c);
+    return all;
+  };
+  const auto r = measured(v);
+  REQUIRE(r);
+  REQUIRE(r->fraction);
+  CHECK(r->fraction->value > 0.9);
+}
+
+// The background fades as well, by less than a grey level between two pictures.
+TEST_CASE("response: fluorescence that fades does not change the fraction") {
+  RenderedVideo v = swarm(60, 1, 60, 6);
+  v.microscope.mode = MicroscopeParams::Mode::fluorescence;
+  v.microscope.bleaching_time = 1;
+  const auto r = measured(v);
+  REQUIRE(r);
+  REQUIRE(r->fraction);
+  CHECK(r->fraction->value > 0.9);
 }
 
 // Most cells swim in random directions. Two fifths of them are within 35 degrees of the axis of the response,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "core/vectorised.h"
@@ -53,6 +54,24 @@ struct Step {
   int col, row;
 };
 
+// Segments of 2 half + 1 px, each a parabola that is `bend` k^2 beside its axis at a distance of k.
+std::vector<std::vector<Step>> segments(int half, double bend) {
+  const bool straight = bend * half * half < 0.5;
+  std::vector<std::vector<Step>> all;
+  for (const auto& axis : kAxes)
+    for (const double side : {1.0, -1.0}) {
+      if (straight && side < 0) continue;
+      std::vector<Step> segment;
+      for (int k = -half; k <= half; ++k) {
+        const double beside = straight ? 0 : side * bend * k * k;
+        segment.push_back({int(std::floor(k * axis[0] - beside * axis[1] + 0.5)),
+                           int(std::floor(k * axis[1] + beside * axis[0] + 0.5))});
+      }
+      all.push_back(std::move(segment));
+    }
+  return all;
+}
+
 // out = maximum (or minimum) of the picture along the segment; pixels beyond the border are ignored.
 void extremum_along(const GrayF& g, const std::vector<Step>& segment, bool largest, GrayF& out) {
   out.px.assign(g.px.size(), (largest ? -1 : 1) * std::numeric_limits<float>::max());
@@ -68,16 +87,13 @@ void extremum_along(const GrayF& g, const std::vector<Step>& segment, bool large
 
 }  // namespace
 
-LineClosing line_closing(const GrayF& picture, double length_px) {
+LineClosing line_closing(const GrayF& picture, double length_px, double radius_px) {
   LineClosing out;
   out.least = GrayF(picture.width, picture.height, std::numeric_limits<float>::max());
   out.largest = GrayF(picture.width, picture.height, -std::numeric_limits<float>::max());
   GrayF work(picture.width, picture.height), closed(picture.width, picture.height);
   const int half = std::max(1, int(length_px / 2)), n = int(picture.px.size());
-  for (const auto& axis : kAxes) {
-    std::vector<Step> segment;
-    for (int k = -half; k <= half; ++k)
-      segment.push_back({int(std::floor(k * axis[0] + 0.5)), int(std::floor(k * axis[1] + 0.5))});
+  for (std::vector<Step>& segment : segments(half, 0.5 / radius_px)) {
     extremum_along(picture, segment, true, work);
     for (Step& s : segment) s = {-s.col, -s.row};
     extremum_along(work, segment, false, closed);
