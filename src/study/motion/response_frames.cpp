@@ -67,11 +67,11 @@ void refine(Background& median, const std::vector<GrayF>& pictures) {
 
 // The background with small objects filled. The segments are bent as the edge of the drop, so that the edge
 // of a small drop does not count as objects.
-GrayF filled(const GrayF& background, double size_px, const std::string& name) {
+GrayF filled(const GrayF& background, double size_px, const std::string& name, Pool& pool) {
   const double length = std::max(3.0, kSegmentSizes * size_px);
   const ProposedDrop drop = propose_drop(background, name);
-  return drop.edge ? line_closing(background, length, drop.radius_px).least
-                   : line_closing(background, length).least;
+  return drop.edge ? line_closing(background, length, pool, drop.radius_px).least
+                   : line_closing(background, length, pool).least;
 }
 
 // Averages over squares of `side` px.
@@ -109,7 +109,7 @@ ResponseFrames::ResponseFrames(std::filesystem::path video, const VideoPart& par
   if (!(size_ > 0)) size_ = spot_size(middle, smooth, polarity, pool).px;
   if (!(size_ > 0)) size_ = kDefaultSize;
   refine(median, sampler.kept());
-  filled_ = filled(scaled(std::move(median.level), float(sign_)), size_, video_.string());
+  filled_ = filled(scaled(std::move(median.level), float(sign_)), size_, video_.string(), pool);
   if (polarity == Polarity::dark) gain_ = per_light(filled_);
 }
 

@@ -90,7 +90,8 @@ void Foreground::begin(const GrayF& picture, double noise) {
   GrayF cells_dark = fine;  // inverted for bright cells, so that cells are dark
   if (sign_ > 0)
     for (float& v : cells_dark.px) v = -v;
-  const LineClosing closing = line_closing(cells_dark, kCellsPerLine * options_.cell_px);
+  Pool one(1);
+  const LineClosing closing = line_closing(cells_dark, kCellsPerLine * options_.cell_px, one);
   const GrayF& closed = closing.least;
   // Bias of the closing by noise, from the median, because most of the picture has no cells.
   std::vector<float> biases;

@@ -44,8 +44,9 @@ float raised(const LineClosing& closing, Distance distance, double reach) {
 
 // A straight segment of 31 px leaves the ring by 31^2 / (8 * 60) = 2 px, the width of its line.
 TEST_CASE("line closing: segments bent as a ring leave the ring and fill a spot beside it") {
-  const LineClosing straight = line_closing(ring_and_spot(), 31),
-                    bent = line_closing(ring_and_spot(), 31, kRadius);
+  Pool pool(1);
+  const LineClosing straight = line_closing(ring_and_spot(), 31, pool),
+                    bent = line_closing(ring_and_spot(), 31, pool, kRadius);
   CHECK(raised(straight, from_ring, kLine) == kLight - kDark);
   CHECK(raised(bent, from_ring, 0.5 * kLine) == 0);
   CHECK(raised(straight, from_spot, kSpot) == kLight - kDark);
@@ -54,5 +55,14 @@ TEST_CASE("line closing: segments bent as a ring leave the ring and fill a spot 
 
 TEST_CASE("line closing: a radius without effect on the pixels of a segment gives straight ones") {
   const GrayF g = ring_and_spot();
-  CHECK(line_closing(g, 31, 1000).least.px == line_closing(g, 31).least.px);
+  Pool pool(1);
+  CHECK(line_closing(g, 31, pool, 1000).least.px == line_closing(g, 31, pool).least.px);
+}
+
+TEST_CASE("line closing: the result does not depend on the number of threads") {
+  const GrayF g = ring_and_spot();
+  Pool one(1), three(3);
+  const LineClosing a = line_closing(g, 31, one, kRadius), b = line_closing(g, 31, three, kRadius);
+  CHECK(a.least.px == b.least.px);
+  CHECK(a.largest.px == b.largest.px);
 }

@@ -72,6 +72,11 @@ std::vector<std::vector<Step>> segments(int half, double bend) {
   return all;
 }
 
+std::vector<Step> reversed(std::vector<Step> segment) {
+  for (Step& s : segment) s = {-s.col, -s.row};
+  return segment;
+}
+
 // out = maximum (or minimum) of the picture along the segment; pixels beyond the border are ignored.
 void extremum_along(const GrayF& g, const std::vector<Step>& segment, bool largest, GrayF& out) {
   out.px.assign(g.px.size(), (largest ? -1 : 1) * std::numeric_limits<float>::max());
@@ -85,22 +90,34 @@ void extremum_along(const GrayF& g, const std::vector<Step>& segment, bool large
     }
 }
 
+LineClosing empty_closing(const GrayF& picture) {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  return {GrayF(picture.width, picture.height, kMost), GrayF(picture.width, picture.height, -kMost)};
+}
+
+void add(LineClosing& all, const GrayF& least, const GrayF& largest) {
+  take_smaller(all.least.px.data(), least.px.data(), int(least.px.size()));
+  take_larger(all.largest.px.data(), largest.px.data(), int(largest.px.size()));
+}
+
 }  // namespace
 
-LineClosing line_closing(const GrayF& picture, double length_px, double radius_px) {
-  LineClosing out;
-  out.least = GrayF(picture.width, picture.height, std::numeric_limits<float>::max());
-  out.largest = GrayF(picture.width, picture.height, -std::numeric_limits<float>::max());
-  GrayF work(picture.width, picture.height), closed(picture.width, picture.height);
-  const int half = std::max(1, int(length_px / 2)), n = int(picture.px.size());
-  for (std::vector<Step>& segment : segments(half, 0.5 / radius_px)) {
-    extremum_along(picture, segment, true, work);
-    for (Step& s : segment) s = {-s.col, -s.row};
-    extremum_along(work, segment, false, closed);
-    take_smaller(out.least.px.data(), closed.px.data(), n);
-    take_larger(out.largest.px.data(), closed.px.data(), n);
-  }
-  return out;
+LineClosing line_closing(const GrayF& picture, double length_px, Pool& pool, double radius_px) {
+  const int half = std::max(1, int(length_px / 2));
+  const std::vector<std::vector<Step>> all = segments(half, 0.5 / radius_px);
+  std::vector<LineClosing> parts(pool.threads());
+  pool.run(parts.size(), [&](std::size_t part) {
+    parts[part] = empty_closing(picture);
+    GrayF work(picture.width, picture.height), closed(picture.width, picture.height);
+    for (std::size_t i = part; i < all.size(); i += parts.size()) {
+      extremum_along(picture, all[i], true, work);
+      extremum_along(work, reversed(all[i]), false, closed);
+      add(parts[part], closed, closed);
+    }
+  });
+  for (std::size_t part = 1; part < parts.size(); ++part)
+    add(parts.front(), parts[part].least, parts[part].largest);
+  return std::move(parts.front());
 }
 
 }  // namespace faba

@@ -1,6 +1,7 @@
 #pragma once
 #include <limits>
 
+#include "core/threads/parallel.h"
 #include "vision/image/image.h"
 
 namespace faba {
@@ -17,8 +18,8 @@ struct LineClosing {
 
 /// `length_px`: length of the segment, at least 3. `radius_px`: radius of the segments, which are bent to
 /// either side, so that a circular line with this radius remains; by default they are straight. Bit-identical
-/// on every machine.
-LineClosing line_closing(const GrayF& picture, double length_px,
+/// on every machine, and for any number of threads.
+LineClosing line_closing(const GrayF& picture, double length_px, Pool& pool,
                          double radius_px = std::numeric_limits<double>::infinity());
 
 }  // namespace faba
