@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -12,9 +11,9 @@
 #include "core/statistics.h"
 #include "core/threads/ordered_work.h"
 #include "study/data/frame_inspector.h"
-#include "study/drop/proposed_drop.h"
 #include "study/tracks/track_survey.h"
 #include "vision/cells/detector.h"
+#include "vision/drop/drop_search.h"
 #include "vision/foreground/kernels/line_closing.h"
 #include "vision/image/kernels/arithmetic.h"
 #include "vision/image/kernels/grey_scale.h"
@@ -65,13 +64,24 @@ void refine(Background& median, const std::vector<GrayF>& pictures) {
   for (std::size_t i = 0; i < level.px.size(); ++i) level.px[i] += sums[i] / std::max(counts[i], 1.0F);
 }
 
+// The radius of the edge of a drop, px; infinity if none is detected.
+double edge_radius(const GrayF& background) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  const DropEdgeOptions options;
+  try {
+    const auto edge = search_drop_edge(prepare_drop_picture(background, options), options).accepted;
+    return edge ? edge->circle.radius : kNone;
+  } catch (const Error& e) {
+    if (e.code() != Errc::input) throw;
+    return kNone;  // the picture is uniform or small
+  }
+}
+
 // The background with small objects filled. The segments are bent as the edge of the drop, so that the edge
 // of a small drop does not count as objects.
-GrayF filled(const GrayF& background, double size_px, const std::string& name, Pool& pool) {
+GrayF filled(const GrayF& background, double size_px, Pool& pool) {
   const double length = std::max(3.0, kSegmentSizes * size_px);
-  const ProposedDrop drop = propose_drop(background, name);
-  return drop.edge ? line_closing(background, length, pool, drop.radius_px).least
-                   : line_closing(background, length, pool).least;
+  return line_closing(background, length, pool, edge_radius(background)).least;
 }
 
 // Averages over squares of `side` px.
@@ -109,7 +119,7 @@ ResponseFrames::ResponseFrames(std::filesystem::path video, const VideoPart& par
   if (!(size_ > 0)) size_ = spot_size(middle, smooth, polarity, pool).px;
   if (!(size_ > 0)) size_ = kDefaultSize;
   refine(median, sampler.kept());
-  filled_ = filled(scaled(std::move(median.level), float(sign_)), size_, video_.string(), pool);
+  filled_ = filled(scaled(std::move(median.level), float(sign_)), size_, pool);
   if (polarity == Polarity::dark) gain_ = per_light(filled_);
 }
 
