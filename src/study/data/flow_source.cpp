@@ -154,6 +154,7 @@ void FlowSource::Impl::open_video() {
   items.resize(OrderedWork::slots(threads));
   for (unsigned i = 0; i < threads; ++i) methods.push_back(options.method.make({&one_thread}));
   if (options.t0_s > 0) frame = read_frames = std::uint64_t(video->skip_to(options.t0_s));
+  if (options.inspect.begin) options.inspect.begin(video->reader());
   if (!read(before, t_before, items.front())) throw Error(Errc::input, path.string(), "contains no frames");
   work = std::make_unique<OrderedWork>(
       threads, OrderedWork::Steps{

@@ -16,7 +16,12 @@ struct FrameInspector {
   /// Called with such a frame, as the file has it, in order. Returns work on it that any thread may do, or
   /// nothing.
   std::function<std::function<void()>(const GrayF& frame)> take;
+  /// Called before the first frame. May be empty.
+  std::function<void(const VideoReader& video)> begin = {};
 };
+
+/// Both of them in one reading. Either may be empty.
+FrameInspector both(const FrameInspector& a, const FrameInspector& b);
 
 /// What a complete reading of a part of a video has found.
 struct VideoReading {

@@ -89,13 +89,24 @@ FlowSourceOptions source_options(const ActivityJob& job, const ActivityInput& v)
 }
 
 /// One video between the two readings of its frames: the first determines the noise of the flow and the
-/// appearance of the cells, the second computes all flows and counts the cells.
+/// appearance of the cells, the second computes all flows, counts the cells and takes the pictures in which
+/// the response is measured.
 struct Prepared {
   double threshold_px = 0;
   bool quiet = true;
   std::optional<CellCount> cells;
   std::shared_ptr<KeptFlows> flows;
+  std::shared_ptr<ResponsePictures> pictures;
 };
+
+ResponseJob response_job(const ActivityJob& job, const ActivityInput& v) {
+  return {.video = v.file,
+          .part = {v.from_s, v.to_s, job.fps},
+          .reversal_s = v.reversal_s,
+          .direction_deg = v.direction_deg,
+          .threads = job.threads,
+          .check = [&] { check_stop(job, v); }};
+}
 
 NoiseLevel noise_of(const ActivityJob& job, const ActivityInput& video, std::size_t index,
                     const FrameInspector& inspect, const std::shared_ptr<KeptFlows>& flows) {
@@ -146,6 +157,7 @@ void read_signature(VideoActivity& a, const ActivityJob& job, std::size_t index,
   a.signature = Signature(a.threshold_px, zero);
   FlowSourceOptions options = source_options(job, a.input);
   if (cells) options.inspect = cells->count();
+  if (prepared.pictures) options.inspect = both(options.inspect, prepared.pictures->inspector());
   options.kept = std::move(prepared.flows);
   FlowSource source(a.input.file, options);
   FlowPair pair;
@@ -253,14 +265,10 @@ void add_sampling_error(Measured& f, double objects) {
             std::min(1.0, f.value + std::hypot(f.ci90[1] - f.value, error))};
 }
 
-void take_response(VideoActivity& a, const ActivityJob& job) {
-  const ResponseJob response{.video = a.input.file,
-                             .part = {a.input.from_s, a.input.to_s, job.fps},
-                             .reversal_s = a.input.reversal_s,
-                             .direction_deg = a.input.direction_deg,
-                             .frame_s = a.frame_s,
-                             .threads = job.threads,
-                             .check = [&] { check_stop(job, a.input); }};
+void take_response(VideoActivity& a, const ActivityJob& job, std::shared_ptr<ResponsePictures> pictures) {
+  ResponseJob response = response_job(job, a.input);
+  response.frame_s = a.frame_s;
+  response.pictures = std::move(pictures);
   a.response = video_response(response, {a.signature, a.segments, a.direction_deg});
   if (!a.response) return;
   if (is_run(a.input.file) && !a.input.scale)
@@ -281,6 +289,7 @@ VideoActivity measure(const ActivityJob& job, std::size_t index, Prepared& prepa
     prepared.cells.emplace(cells_of(job, a.input));
     end_survey(*prepared.cells, prepared.cells->survey(), [&] { check_stop(job, a.input); });
   }
+  if (job.responses) prepared.pictures = response_pictures(response_job(job, a.input));
   read_signature(a, job, index, prepared);
   a.segments = motion_segments(a.signature, a.input.direction_deg);
   a.direction_deg = a.direction_given ? *a.input.direction_deg : detected_direction(a);
@@ -299,7 +308,7 @@ VideoActivity measure(const ActivityJob& job, std::size_t index, Prepared& prepa
     gaps.push_back(a.signature.t1_s(k) - a.signature.t0_s(k));
   a.frame_s = median_high(gaps);
   a.fit = fit_gaussian(a.t_s, a.amount);
-  if (job.responses) take_response(a, job);
+  if (job.responses) take_response(a, job, std::move(prepared.pictures));
   if (a.fit.good && job.responses && !directed(a)) {
     a.fit.good = false;
     a.fit.reason = "nothing moves in one direction, so that a maximum is a fluctuation";

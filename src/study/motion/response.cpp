@@ -134,7 +134,9 @@ void take_speed(Response& r, const CommonDisplacement& common, const ResponseFra
   r.fraction_method = "centroid over image correlation";
 }
 
-VideoPart part_of(const ResponseJob& job) {
+}  // namespace
+
+VideoPart response_part(const ResponseJob& job) {
   VideoPart part = job.part;
   const double end = job.part.to_s.value_or(1e300);
   if (job.reversal_s) {
@@ -146,11 +148,9 @@ VideoPart part_of(const ResponseJob& job) {
   return part;
 }
 
-}  // namespace
-
 std::optional<Response> measure_response(const ResponseJob& job) {
-  const VideoPart part = part_of(job);
-  const ResponseFrames frames(job.video, part, job.threads, job.check);
+  const VideoPart part = response_part(job);
+  const ResponseFrames frames(job.video, part, job.threads, job.check, job.pictures);
   if (frames.frames() < 2) return {};
   const PairShifts shifts = pair_shifts(frames, part);
   Response r;

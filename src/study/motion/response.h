@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -59,8 +60,12 @@ struct ResponseJob {
   std::optional<double> reversal_s, direction_deg;
   double frame_s = 0;  ///< median time between frames
   unsigned threads = 0;
-  std::function<void()> check = [] {};  ///< called for each frame that is read
+  std::function<void()> check = [] {};              ///< called for each frame that is read
+  std::shared_ptr<ResponsePictures> pictures = {};  ///< that another reading has taken; may be empty
 };
+
+/// The part of the video that measure_response() reads.
+VideoPart response_part(const ResponseJob& job);
 
 /// Detects the response to the field reversal, or, when its time is not given, the largest change of the mean
 /// velocity in the first 20 s of the part. Empty with too few frames before or after it.

@@ -51,17 +51,21 @@ GrayF per_light(const GrayF& background) {
 
 // The median of pictures, refined by the mean of their values near it: a median of integers is an integer,
 // and where the light differs little its rounding has the form of wide objects.
-void refine(Background& median, const std::vector<GrayF>& pictures) {
+void refine(Background& median, const std::vector<GrayF>& pictures, Pool& pool) {
+  constexpr std::size_t kPixelsPerBlock = 1 << 12;
   GrayF& level = median.level;
-  std::vector<float> sums(level.px.size()), counts(level.px.size());
-  for (const GrayF& picture : pictures)
-    for (std::size_t i = 0; i < level.px.size(); ++i) {
-      const float d = picture.px[i] - level.px[i];
-      const bool near = std::fabs(d) < float(kBackgroundSd) * median.noise_sd.px[i] + float(kHalfStep);
-      sums[i] += near ? d : 0.0F;
-      counts[i] += near ? 1.0F : 0.0F;
-    }
-  for (std::size_t i = 0; i < level.px.size(); ++i) level.px[i] += sums[i] / std::max(counts[i], 1.0F);
+  pool.for_blocks(level.px.size(), kPixelsPerBlock, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> sums(end - begin), counts(end - begin);
+    for (const GrayF& picture : pictures)
+      for (std::size_t i = begin; i < end; ++i) {
+        const float d = picture.px[i] - level.px[i];
+        const bool near = std::fabs(d) < float(kBackgroundSd) * median.noise_sd.px[i] + float(kHalfStep);
+        sums[i - begin] += near ? d : 0.0F;
+        counts[i - begin] += near ? 1.0F : 0.0F;
+      }
+    for (std::size_t i = begin; i < end; ++i)
+      level.px[i] += sums[i - begin] / std::max(counts[i - begin], 1.0F);
+  });
 }
 
 // The radius of the edge of a drop, px; infinity if none is detected.
@@ -85,25 +89,54 @@ GrayF filled(const GrayF& background, double size_px, Pool& pool) {
 }
 
 // Averages over squares of `side` px.
-GrayF reduced(GrayF& frame, int side) {
-  make_finite(frame);
-  if (side == 1) return frame;
+GrayF reduced(const GrayF& frame, int side) {
   GrayF small;
-  shrink(frame, side, small);
+  if (side == 1)
+    small = frame;
+  else
+    shrink(frame, side, small);
+  make_finite(small);
   return small;
 }
 
 }  // namespace
 
+FrameInspector ResponsePictures::inspector() {
+  return {[this](double t_s) {
+            t_s_ = t_s;
+            return kept_ && part_.holds(t_s);
+          },
+          [this](const GrayF& frame) -> std::function<void()> {
+            pictures_.push_back({t_s_, reduced(frame, side_)});
+            kept_ = pictures_.size() * bytes_ <= most_bytes_;  // else the file has more frames than it states
+            if (!kept_) pictures_.clear();
+            return {};
+          },
+          [this](const VideoReader& video) { begin(video); }};
+}
+
+void ResponsePictures::begin(const VideoReader& video) {
+  const int width = video.width(), height = video.height();
+  side_ = std::max(1, (std::max(width, height) + kLongResponseSide - 1) / kLongResponseSide);
+  bytes_ = sizeof(float) * std::size_t(width / side_) * std::size_t(height / side_);
+  const std::int64_t stated = frames_stated(video, part_);
+  kept_ = stated > 0 && std::size_t(stated) * bytes_ <= most_bytes_;
+}
+
+bool ResponsePictures::hold(const VideoPart& part) const {
+  constexpr double kEnd = std::numeric_limits<double>::infinity();
+  return kept_ && !pictures_.empty() && part.from_s >= part_.from_s && part.fps == part_.fps &&
+         part.to_s.value_or(kEnd) <= part_.to_s.value_or(kEnd);
+}
+
 ResponseFrames::ResponseFrames(std::filesystem::path video, const VideoPart& part, unsigned threads,
-                               std::function<void()> check, std::size_t most_bytes)
+                               std::function<void()> check, std::shared_ptr<ResponsePictures> pictures)
     : video_(std::move(video)),
       threads_(OrderedWork::threads(threads)),
       check_(std::move(check)),
-      part_(part) {
+      pictures_(std::move(pictures)) {
   BackgroundSampler sampler(kSampled);
-  const bool fits = measure(part, most_bytes);
-  if (!fits || !keep(part, sampler, most_bytes)) sample(part, sampler);
+  pictures_ && pictures_->hold(part) ? take(part, sampler) : read_all(part, sampler);
   if (frames_ == 0) throw Error(Errc::input, video_.string(), "no frame in this part of the video");
   Pool pool(threads_);
   Background median = sampler.background(pool);
@@ -118,47 +151,27 @@ ResponseFrames::ResponseFrames(std::filesystem::path video, const VideoPart& par
   size_ = spot_size(middle, median, polarity, pool).px;
   if (!(size_ > 0)) size_ = spot_size(middle, smooth, polarity, pool).px;
   if (!(size_ > 0)) size_ = kDefaultSize;
-  refine(median, sampler.kept());
+  refine(median, sampler.kept(), pool);
   filled_ = filled(scaled(std::move(median.level), float(sign_)), size_, pool);
   if (polarity == Polarity::dark) gain_ = per_light(filled_);
 }
 
-// The size of the pictures, and whether all of the part fit into memory by the number of frames that the file
-// states.
-bool ResponseFrames::measure(const VideoPart& part, std::size_t most_bytes) {
-  const VideoReader reader(video_, part.fps);
-  side_ =
-      std::max(1, (std::max(reader.width(), reader.height()) + kLongResponseSide - 1) / kLongResponseSide);
-  bytes_ = sizeof(float) * std::size_t(reader.width() / side_) * std::size_t(reader.height() / side_);
-  const std::int64_t stated = frames_stated(reader, part);
-  return stated > 0 && std::size_t(stated) * bytes_ <= most_bytes;
-}
-
-// Reads all pictures of the part into memory, so that they are decoded once. False if the file has more
-// frames than it states and they do not fit.
-bool ResponseFrames::keep(const VideoPart& part, BackgroundSampler& sampler, std::size_t most_bytes) {
-  std::vector<Kept> small(slots());
-  bool fits = true;
-  const auto work = [&](std::size_t slot, GrayF& frame, double t_s) {
-    small[slot] = {t_s, reduced(frame, side_)};
-  };
-  read(part, work, [&](std::size_t slot) {
-    fits = fits && (kept_.size() + 1) * bytes_ <= most_bytes;
-    if (fits) kept_.push_back(std::move(small[slot]));
-  });
-  if (!fits) kept_.clear();
-  for (const Kept& k : kept_) {
+// The background of pictures in memory.
+void ResponseFrames::take(const VideoPart& part, BackgroundSampler& sampler) {
+  for (const ResponsePictures::Picture& p : pictures_->all()) {
+    if (!part.holds(p.t_s)) continue;
+    ++frames_;
     if (sampler.needs_next())
-      sampler.take(k.picture);
+      sampler.take(p.grey);
     else
       sampler.skip();
   }
-  frames_ = std::int64_t(kept_.size());
-  return fits;
 }
 
-// Reads the pictures of the background only.
-void ResponseFrames::sample(const VideoPart& part, BackgroundSampler& sampler) {
+// Reads the part, for the background and, if they are kept, all pictures.
+void ResponseFrames::read_all(const VideoPart& part, BackgroundSampler& sampler) {
+  if (!pictures_) pictures_ = std::make_shared<ResponsePictures>(part);
+  *pictures_ = pictures_->of(part);
   const FrameInspector sampling{[&](double) {
                                   ++frames_;
                                   const bool needed = sampler.needs_next();
@@ -166,11 +179,11 @@ void ResponseFrames::sample(const VideoPart& part, BackgroundSampler& sampler) {
                                   return needed;
                                 },
                                 [&](const GrayF& frame) -> std::function<void()> {
-                                  GrayF finite = frame;
-                                  sampler.take(reduced(finite, side_));
+                                  sampler.take(reduced(frame, side()));
                                   return {};
                                 }};
-  inspect_video(video_, part, sampling, threads_, [&](auto, auto) { check_(); });
+  inspect_video(video_, part, both(pictures_->inspector(), sampling), threads_,
+                [&](auto, auto) { check_(); });
 }
 
 GrayF ResponseFrames::objects_in(GrayF picture) const {
@@ -207,28 +220,27 @@ void ResponseFrames::read(const VideoPart& part, const std::function<void(std::s
 void ResponseFrames::each(const VideoPart& part,
                           const std::function<void(std::size_t, const GrayF&, double)>& work,
                           const std::function<void(std::size_t)>& take) const {
-  constexpr double kEnd = std::numeric_limits<double>::infinity();
-  const double end = part_.to_s.value_or(kEnd);
-  const bool within = part.from_s >= part_.from_s && part.to_s.value_or(kEnd) <= end && part.fps == part_.fps;
-  if (kept_.empty() || !within) {
+  if (!pictures_->hold(part)) {
     read(
         part,
         [&](std::size_t slot, GrayF& frame, double t_s) {
-          work(slot, objects_in(reduced(frame, side_)), t_s);
+          work(slot, objects_in(reduced(frame, side())), t_s);
         },
         take);
     return;
   }
-  std::vector<const Kept*> pictures(slots());
+  using Picture = ResponsePictures::Picture;
+  const std::vector<Picture>& kept = pictures_->all();
+  std::vector<const Picture*> pictures(slots());
   std::size_t at = 0;
   const auto next = [&](std::size_t slot) {
-    while (at < kept_.size() && !part.holds(kept_[at].t_s)) ++at;
-    if (at == kept_.size()) return false;
-    pictures[slot] = &kept_[at++];
+    while (at < kept.size() && !part.holds(kept[at].t_s)) ++at;
+    if (at == kept.size()) return false;
+    pictures[slot] = &kept[at++];
     return true;
   };
   const auto on_picture = [&](std::size_t slot, unsigned) {
-    work(slot, objects_in(pictures[slot]->picture), pictures[slot]->t_s);
+    work(slot, objects_in(pictures[slot]->grey), pictures[slot]->t_s);
   };
   OrderedWork all(threads_, {next, on_picture});
   while (const std::optional<std::size_t> slot = all.next()) {

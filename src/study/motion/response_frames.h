@@ -1,9 +1,10 @@
 #pragma once
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <vector>
 
-#include "study/data/video_part.h"
+#include "study/data/frame_inspector.h"
 #include "vision/foreground/background.h"
 #include "vision/image/image.h"
 
@@ -11,6 +12,37 @@ namespace faba {
 
 /// Side above which pictures are averaged over squares, px.
 inline constexpr int kLongResponseSide = 640;
+
+/// The pictures of a part of a video in memory, averaged over squares of side() px.
+class ResponsePictures {
+ public:
+  struct Picture {
+    double t_s;
+    GrayF grey;
+  };
+  /// None are kept if they need more than `most_bytes`.
+  explicit ResponsePictures(const VideoPart& part, std::size_t most_bytes = 256u << 20)
+      : part_(part), most_bytes_(most_bytes) {}
+  /// For another part of the same video, without pictures.
+  ResponsePictures of(const VideoPart& part) const { return ResponsePictures(part, most_bytes_); }
+  /// Takes them in a reading of the video, to its end or that of the part.
+  FrameInspector inspector();
+
+  int side() const { return side_; }
+  /// Whether all pictures of this part are here, after the reading.
+  bool hold(const VideoPart& part) const;
+  const std::vector<Picture>& all() const { return pictures_; }
+
+ private:
+  void begin(const VideoReader& video);
+
+  VideoPart part_;
+  std::size_t most_bytes_, bytes_ = 0;  ///< of all, and of a picture
+  int side_ = 1;
+  bool kept_ = false;
+  double t_s_ = 0;  ///< of the next picture
+  std::vector<Picture> pictures_;
+};
 
 /// A part of a video as pictures of its objects: differences from an empty background, positive for objects,
 /// grey levels of the video averaged over squares of side() px. Dark objects absorb a fraction of the light,
@@ -21,12 +53,12 @@ inline constexpr int kLongResponseSide = 640;
 /// move are not part of it, long lines such as the edge of a drop are.
 class ResponseFrames {
  public:
-  /// Reads the part once, and keeps its pictures if they need at most `most_bytes`; otherwise they are read
-  /// again by each(). Throws the errors of VideoReader, and what `check`, called for each frame, throws.
+  /// Uses `pictures` if they hold the part, otherwise reads it once into them; if they do not keep it, each()
+  /// reads it again. Throws the errors of VideoReader, and what `check`, called for each frame, throws.
   ResponseFrames(std::filesystem::path video, const VideoPart& part, unsigned threads,
-                 std::function<void()> check, std::size_t most_bytes = 256u << 20);
+                 std::function<void()> check, std::shared_ptr<ResponsePictures> pictures = nullptr);
 
-  int side() const { return side_; }          ///< px of the video per px of the pictures
+  int side() const { return pictures_->side(); }  ///< px of the video per px of the pictures
   double object_px() const { return size_; }  ///< full width at half maximum of an object, px of the pictures
   double noise() const { return noise_; }     ///< standard deviation of a pixel, grey
   std::int64_t frames() const { return frames_; }
@@ -44,13 +76,8 @@ class ResponseFrames {
             const std::function<void(std::size_t slot)>& take) const;
 
  private:
-  struct Kept {
-    double t_s;
-    GrayF picture;
-  };
-  bool measure(const VideoPart& part, std::size_t most_bytes);
-  bool keep(const VideoPart& part, BackgroundSampler& sampler, std::size_t most_bytes);
-  void sample(const VideoPart& part, BackgroundSampler& sampler);
+  void take(const VideoPart& part, BackgroundSampler& sampler);
+  void read_all(const VideoPart& part, BackgroundSampler& sampler);
   void read(const VideoPart& part,
             const std::function<void(std::size_t slot, GrayF& frame, double t_s)>& work,
             const std::function<void(std::size_t slot)>& take) const;
@@ -59,14 +86,11 @@ class ResponseFrames {
   std::filesystem::path video_;
   unsigned threads_;
   std::function<void()> check_;
-  int side_ = 1;
+  std::shared_ptr<ResponsePictures> pictures_;
   std::int64_t frames_ = 0;
   double size_ = 0, noise_ = 0, sign_ = 1;
-  GrayF filled_;            ///< background in the sense of dark objects
-  GrayF gain_;              ///< factor on the differences of dark objects; empty for bright ones
-  std::size_t bytes_ = 0;   ///< of a picture
-  VideoPart part_;          ///< of the constructor
-  std::vector<Kept> kept_;  ///< all pictures of this part, or none
+  GrayF filled_;  ///< background in the sense of dark objects
+  GrayF gain_;    ///< factor on the differences of dark objects; empty for bright ones
 };
 
 }  // namespace faba

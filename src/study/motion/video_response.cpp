@@ -26,16 +26,22 @@ const MotionSegment* late_segment(const VideoMotion& m) {
   return nullptr;
 }
 
+// Takes the first reversal that the run recorded, if there is one.
+void take_recorded(ResponseJob& job) {
+  if (job.part.fps > 0) return;  // the times of the run are not those of the measurement
+  for (const FieldReversal& r : recorded_reversals(job.video))
+    if (job.part.holds(r.t_s)) {
+      job.reversal_s = r.t_s;
+      if (!job.direction_deg) job.direction_deg = r.direction_deg;
+      return;
+    }
+}
+
 // Completes time and direction of the reversal; returns the source of the time.
 Response::Source complete(ResponseJob& job, const VideoMotion& motion) {
   if (job.reversal_s) return Response::Source::given;
-  if (!(job.part.fps > 0))  // else the times of the run are not those of the measurement
-    for (const FieldReversal& r : recorded_reversals(job.video))
-      if (job.part.holds(r.t_s)) {
-        job.reversal_s = r.t_s;
-        if (!job.direction_deg) job.direction_deg = r.direction_deg;
-        return Response::Source::recorded;
-      }
+  take_recorded(job);
+  if (job.reversal_s) return Response::Source::recorded;
   if (const MotionSegment* s = late_segment(motion)) {
     job.reversal_s = s->t0_s - kBeforeSegment;
     if (!job.direction_deg) job.direction_deg = s->direction_deg;
@@ -69,6 +75,14 @@ std::optional<Response> response_in_flow(const ResponseJob& job, const VideoMoti
 }
 
 }  // namespace
+
+std::shared_ptr<ResponsePictures> response_pictures(ResponseJob job) {
+  if (!has_frames(job.video)) return {};
+  if (!job.reversal_s) take_recorded(job);
+  VideoPart part = response_part(job);
+  part.from_s = std::max(part.from_s, job.part.from_s);
+  return std::make_shared<ResponsePictures>(part);
+}
 
 std::optional<Response> video_response(ResponseJob job, const VideoMotion& motion) {
   if (motion.signature.still() && !job.reversal_s) return {};

@@ -18,4 +18,8 @@ struct VideoMotion {
 /// nothing to search in, and with too few frames.
 std::optional<Response> video_response(ResponseJob job, const VideoMotion& motion);
 
+/// For the pictures that video_response() needs, unless the time of the reversal follows from a segment
+/// outside of them: another reading of `job.part` may take them.
+std::shared_ptr<ResponsePictures> response_pictures(ResponseJob job);
+
 }  // namespace faba

@@ -228,8 +228,9 @@ TEST_CASE("response frames: pictures that are kept and pictures that are read ag
         [&](std::size_t slot) { all.push_back(slots[slot]); });
     return all;
   };
+  const auto none = std::make_shared<ResponsePictures>(part, 0);
   const ResponseFrames kept(video, part, 2, [] {}), read(
-                                                        video, part, 2, [] {}, 0);
+                                                        video, part, 2, [] {}, none);
   CHECK(kept.frames() == read.frames());
   CHECK(kept.object_px() == read.object_px());
   CHECK(kept.noise() == read.noise());
@@ -245,4 +246,36 @@ TEST_CASE("response frames: pictures that are kept and pictures that are read ag
   VideoPart to_the_end = part;
   to_the_end.to_s.reset();
   CHECK(pictures(kept, to_the_end).size() > expected.size());
+  // Pictures of a longer part, taken beside other work.
+  const auto taken = std::make_shared<ResponsePictures>(longer);
+  int others = 0;
+  const FrameInspector other{[](double) { return true; },
+                             [&](const GrayF&) {
+                               ++others;
+                               return std::function<void()>();
+                             }};
+  inspect_video(video, VideoPart{}, both(taken->inspector(), other), 2, [](auto, auto) {});
+  CHECK(others == 45);
+  REQUIRE(taken->hold(part));
+  const ResponseFrames given(
+      video, part, 2, [] {}, taken);
+  CHECK(given.frames() == read.frames());
+  CHECK(given.noise() == read.noise());
+  CHECK(pictures(given, part) == expected);
+}
+
+TEST_CASE("response pictures: none are kept that need more memory, and none of another part are given") {
+  const test::TemporaryFolder f("response-pictures");
+  const std::filesystem::path video = f.path() / "v.avi";
+  write_rendered(swarm(60, 0.8, 60, 5), video);
+  const VideoPart part{0.2, 1.0, 0};
+  ResponsePictures few(part, 5 * sizeof(float) * 320 * 240), all(part);
+  inspect_video(video, part, both(few.inspector(), all.inspector()), 1, [](auto, auto) {});
+  CHECK(few.all().empty());
+  CHECK_FALSE(few.hold(part));
+  CHECK(all.hold(part));
+  CHECK_FALSE(all.hold(VideoPart{0.1, 1.0, 0}));
+  CHECK_FALSE(all.hold(VideoPart{0.2, 1.1, 0}));
+  CHECK_FALSE(all.hold(VideoPart{0.2, {}, 0}));
+  CHECK_FALSE(all.hold(VideoPart{0.2, 1.0, 30}));
 }
