@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Tests responding fraction and speed of `faba activity` on rendered ageing drops at 15 frames per second (scenes/exposure.toml at the
-thesis's scale, with another number of cells and a shorter gathering), with known truth. Writes bench/results/ageing.md. Takes 15 minutes.
+thesis's scale, with another number of cells and a shorter gathering), with known truth. Writes bench/results/ageing.md. Takes 5 minutes.
 
-    bench/ageing.py [--program build/faba] [--drops 20] [--first-seeds 2000 6000 30000] [--out bench/results]
+    bench/ageing.py [--program build/faba] [--drops 20] [--first-seeds 2000 6000 30000 70000] [--out bench/results]
 
 The true responding fraction is that of the cells in view in the part that is measured (0.3 to 1.8 s after the rise), the true speed is the
 mean displacement of the responding cells along the new direction. The measurement was developed with the drops of seeds 2000, 6000 and

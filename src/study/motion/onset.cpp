@@ -19,6 +19,7 @@ constexpr double kHalfRises = 3;     // length of the window after the change, i
 constexpr double kLeastAfter = 0.4;  // s of that window, at least
 constexpr std::size_t kPairsBefore = 3, kPairsAfter = 8;
 constexpr std::size_t kWindowBlocks = 6;  // of the window, assumed independent
+constexpr double kIndependent = 0.5;      // s between changes that are assumed independent
 constexpr double kPerPair = 10;           // steps of the onset per pair
 constexpr double kModelError = 0.05;  // of the rise: rms deviation of a logistic rise from the nearest ramp
 struct ChangeWindow {
@@ -176,23 +177,32 @@ void summarise(const std::vector<OnsetTime>& posterior, double earliest, double 
   }
 }
 
-// Standard error of the difference of two means over the parts before and after the change: from means over
-// blocks of the displacements across, whose expectation is zero, which includes slow fluctuations.
-double error_of_step(const ShiftSeries& s, const ChangeWindow& w, std::size_t after) {
+/// A standard error with its degrees of freedom.
+struct StepError {
+  double value = 0, degrees = 0;
+};
+
+// Of the difference of two means over the parts before and after the change: from means over blocks of the
+// displacements across, whose expectation is zero, which includes slow fluctuations. The blocks are those of
+// all pairs, as long as a sixth of the window.
+StepError error_of_step(const ShiftSeries& s, const ChangeWindow& w, std::size_t after) {
+  const std::size_t block = std::max<std::size_t>(1, (w.end - w.begin) / kWindowBlocks),
+                    blocks = s.across.size() / block;
   double squares = 0;
-  const std::size_t n = w.end - w.begin;
-  for (std::size_t b = 0; b < kWindowBlocks; ++b) {
-    const double block =
-        mean_of(s.across, w.begin + n * b / kWindowBlocks, w.begin + n * (b + 1) / kWindowBlocks);
-    squares += block * block / double(kWindowBlocks);
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const double mean = mean_of(s.across, b * block, (b + 1) * block);
+    squares += mean * mean / double(blocks);
   }
-  const double per_block = double(n) / double(kWindowBlocks);
-  return std::sqrt(squares * per_block * (1 / double(w.change - w.begin) + 1 / double(w.end - after)));
+  return {std::sqrt(squares * double(block) * (1 / double(w.change - w.begin) + 1 / double(w.end - after))),
+          double(blocks)};
 }
 
 }  // namespace
 
-double least_t(double tests) { return student_t_quantile(1 - kFalseResponse / tests, double(kWindowBlocks)); }
+double least_t(const ChangePoint& change, double searched_s, double others) {
+  const double tests = others * std::max(1.0, searched_s / kIndependent);
+  return student_t_quantile(1 - kFalseResponse / tests, change.degrees);
+}
 
 std::optional<ChangePoint> change_point(const ShiftSeries& s, double earliest, double latest) {
   const auto w = window_of(s, earliest, latest);
@@ -209,8 +219,10 @@ std::optional<ChangePoint> change_point(const ShiftSeries& s, double earliest, d
   while (after + kPairsBefore < w->end && s.t0_s[after] < w->half_s) ++after;
   c.before = mean_of(s.along, w->begin, w->change);
   c.after = mean_of(s.along, after, w->end);
-  const double error = error_of_step(s, *w, after);
-  c.t_statistic = error > 0 ? (c.after - c.before) / error : std::numeric_limits<double>::infinity();
+  const StepError error = error_of_step(s, *w, after);
+  c.degrees = error.degrees;
+  c.t_statistic =
+      error.value > 0 ? (c.after - c.before) / error.value : std::numeric_limits<double>::infinity();
   return c;
 }
 

@@ -69,8 +69,8 @@ Change largest_change(const PairShifts& p, const std::vector<Vec2>& shifts,
 }
 
 // The change of the measure in which the response is clearest, with its time and direction; whether there is
-// one. `tests`: number of independent possibilities.
-bool take_clearest(Response& r, const PairShifts& p, const ResponseJob& job, double latest, double tests) {
+// one.
+bool take_clearest(Response& r, const PairShifts& p, const ResponseJob& job, double latest) {
   bool found = false;
   for (const ShiftMeasure m : kShiftMeasures) {
     double earliest = r.earliest_s, direction = r.direction_deg;
@@ -93,16 +93,18 @@ bool take_clearest(Response& r, const PairShifts& p, const ResponseJob& job, dou
     r.direction_deg = direction;
     r.measure = word_of(m);
   }
-  r.responds = found && r.change.after > 0 && r.change.t_statistic > least_t(tests);
+  const double searched = p.t1_s.back() - job.reversal_s.value_or(p.t0_s.front());
+  const double others = double(kShiftMeasures.size()) * (job.direction_deg ? 1 : kAnyDirection);
+  r.responds = found && r.change.after > 0 && r.change.t_statistic > least_t(r.change, searched, others);
   return found;
 }
 
 // The direction of the clearest change when the given one is ignored, if it is significant.
-std::optional<double> changed_direction(const PairShifts& p, ResponseJob job, double latest, double tests) {
+std::optional<double> changed_direction(const PairShifts& p, ResponseJob job, double latest) {
   job.direction_deg.reset();
   Response any;
   any.earliest_s = job.reversal_s.value_or(job.part.from_s);
-  if (!take_clearest(any, p, job, latest, kAnyDirection * tests) || !any.responds) return {};
+  if (!take_clearest(any, p, job, latest) || !any.responds) return {};
   return any.direction_deg;
 }
 
@@ -156,12 +158,8 @@ std::optional<Response> measure_response(const ResponseJob& job) {
   Response r;
   r.earliest_s = job.reversal_s.value_or(part.from_s);
   r.direction_deg = job.direction_deg.value_or(0);
-  const double length = shifts.t1_s.back() - shifts.t0_s.front();
-  const double places = job.reversal_s ? 1 : std::max(1.0, length / kHalfSearch);
-  const double tests = double(kShiftMeasures.size()) * places;
-  if (!take_clearest(r, shifts, job, *part.to_s, tests)) return {};
-  if (!r.responds && job.direction_deg)
-    r.other_direction_deg = changed_direction(shifts, job, *part.to_s, tests);
+  if (!take_clearest(r, shifts, job, *part.to_s)) return {};
+  if (!r.responds && job.direction_deg) r.other_direction_deg = changed_direction(shifts, job, *part.to_s);
   VideoPart after = part;
   after.from_s = r.change.t_s + r.change.rise_s + kResponseWait;
   after.to_s = after.from_s + kResponsePart;

@@ -61,16 +61,15 @@ std::optional<Response> response_in_flow(const ResponseJob& job, const VideoMoti
     along.push_back(dot(sum, d));
     across.push_back(sum.y * d.x - sum.x * d.y);
   }
-  const double latest = job.part.to_s.value_or(t1.back());
-  const auto change = change_point({t0, t1, along, across}, *job.reversal_s,
-                                   std::min(latest, *job.reversal_s + kSearchedFlow));
+  const double latest = std::min(job.part.to_s.value_or(t1.back()), *job.reversal_s + kSearchedFlow);
+  const auto change = change_point({t0, t1, along, across}, *job.reversal_s, latest);
   if (!change) return {};
   Response r;
   r.earliest_s = *job.reversal_s;
   r.direction_deg = direction;
   r.measure = "optical flow";
   r.change = *change;
-  r.responds = change->after > 0 && change->t_statistic > least_t(1);
+  r.responds = change->after > 0 && change->t_statistic > least_t(*change, latest - *job.reversal_s, 1);
   return r;
 }
 

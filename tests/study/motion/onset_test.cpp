@@ -11,7 +11,7 @@ namespace {
 
 using namespace faba;
 
-constexpr double kReversal = 1;
+constexpr double kReversal = 1, kSearched = 2;  // s
 
 /// Displacements of a velocity of -1 that rises to 1 from `onset`, linearly within `rise`, at 30 pairs per
 /// second, with noise.
@@ -49,7 +49,7 @@ TEST_CASE("onset: the 90 % interval contains the time of a tenth of the rise, ne
     CHECK(c->ci90[0] >= kReversal);
     CHECK(c->ci90[0] <= c->t_s);
     CHECK(c->t_s <= c->ci90[1]);
-    CHECK(c->t_statistic > least_t(3));
+    CHECK(c->t_statistic > least_t(*c, kSearched, 3));
     const double truth = onset + kOnsetFraction * rise;
     inside += c->ci90[0] <= truth && truth <= c->ci90[1];
   }
@@ -62,7 +62,7 @@ TEST_CASE("onset: samples without a response exceed the limit of the test as oft
   int found = 0;
   for (int i = 0; i < kCases; ++i) {
     const auto c = change_point(recording(0, 1e-9, 0, 1, 1000 + std::uint64_t(i)).series(), kReversal, 3);
-    found += c && c->t_statistic > least_t(1);
+    found += c && c->t_statistic > least_t(*c, kSearched, 1);
   }
   // Binomial, 200 trials of kFalseResponse: at most 7 with probability 0.999.
   CHECK(found <= 7);
