@@ -57,6 +57,9 @@ def cells():
     p = 5e-6 / 0.5e-6  # rod of 5 um x 0.5 um [S66]
     f_rod = np.pi * WATER * (5e-6) ** 3 / (3 * (np.log(p) - 0.662 + 0.917 / p - 0.05 / p**2))
     print(f"     rod of 5 um x 0.5 um with the moment of MSR-1: {1e-3 * 2e-16 / f_rod:.2f} rad/(mT s)")
+    two_kappa = 2 * 2e-16 * 2e-3 / KT
+    print(f"     mean rate of MSR-1 over a U-turn in 2 mT: {np.pi / np.log(two_kappa):.2f} w_B; w_B if 0.74 rad/(mT s) is that mean: "
+          f"{0.74 * np.log(two_kappa) / np.pi:.2f} rad/(mT s)")
     print(f"     Reynolds number at 186 um/s, 1.4 um: {1000 * 186e-6 * 1.4e-6 / WATER:.1e}")
 
 
