@@ -27,7 +27,8 @@ constexpr double kSmoothing = 8;    // px: scale of the illumination, for the po
 // Length of the closing segment over the size of an object. A cell that stays beside the dark edge of a drop
 // is filled up to the level at the ends of a segment that leads from the edge through the cell: of a short
 // one this level is nearly that of the cell, which then counts too little. Assumed.
-constexpr double kSegmentSizes = 10;
+constexpr double kShortSizes = 6, kLongSizes = 10;
+constexpr double kSagitta = 0.15;  // px, of a straight segment on the edge of a drop. Assumed
 // Values that belong to the background: within this number of standard deviations of the noise and half a
 // step of 8 bits of its median.
 constexpr double kBackgroundSd = 3, kHalfStep = 0.5;
@@ -81,11 +82,13 @@ double edge_radius(const GrayF& background) {
   }
 }
 
-// The background with small objects filled. The segments are bent as the edge of the drop, so that the edge
-// of a small drop does not count as objects.
+// The background with small objects filled, by segments that leave the edge of a drop by less than kSagitta
+// or, if they are not longer than the shortest ones, are bent as it: otherwise the edge would count as
+// objects.
 GrayF filled(const GrayF& background, double size_px, Pool& pool) {
-  const double length = std::max(3.0, kSegmentSizes * size_px);
-  return line_closing(background, length, pool, edge_radius(background)).least;
+  const double radius = edge_radius(background), flat = 2 * std::sqrt(2 * kSagitta * radius);
+  const double length = std::max(3.0, std::clamp(flat, kShortSizes * size_px, kLongSizes * size_px));
+  return line_closing(background, length, pool, radius).least;
 }
 
 // Averages over squares of `side` px.
