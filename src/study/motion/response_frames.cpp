@@ -82,9 +82,9 @@ double edge_radius(const GrayF& background) {
   }
 }
 
-// The background with small objects filled, by segments that leave the edge of a drop by less than kSagitta
-// or, if they are not longer than the shortest ones, are bent as it: otherwise the edge would count as
-// objects.
+// The background with small objects filled. On the edge of a drop the segments are shorter, so that they
+// leave it by kSagitta and it does not count as objects; the shortest ones are bent as an edge that they
+// would leave by half a pixel.
 GrayF filled(const GrayF& background, double size_px, Pool& pool) {
   const double radius = edge_radius(background), flat = 2 * std::sqrt(2 * kSagitta * radius);
   const double length = std::max(3.0, std::clamp(flat, kShortSizes * size_px, kLongSizes * size_px));
