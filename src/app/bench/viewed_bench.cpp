@@ -31,6 +31,10 @@ ViewedBench::~ViewedBench() {
 void ViewedBench::view() {
   if (viewer_.joinable()) return;
   live_->resume();
+  {
+    const std::lock_guard lock(mutex_);
+    trouble_.clear();
+  }
   viewer_ = std::jthread([this](const std::stop_token& stop) { read_camera(stop); });
 }
 

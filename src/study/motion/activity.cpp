@@ -224,6 +224,7 @@ void note_response(VideoActivity& a) {
   if (!a.response) return;
   const Response& r = *a.response;
   if (auto warning = no_response_warning(r)) a.warnings.push_back(*warning);
+  if (auto warning = edge_warning(r)) a.warnings.push_back(*warning);
   if (!r.responds)
     a.notes.push_back(
         fmt::format("no response: the velocity along {} does not change significantly (t = {:.2g}; a sample "

@@ -38,6 +38,7 @@ void archive_response(Archive& a, Response& r) {
   archive_optional(a, r.fraction, [&](Measured& m) { archive_measured(a, m); });
   archive_optional(a, r.speed_px_s, [&](Measured& m) { archive_measured(a, m); });
   archive_optional(a, r.flow, [&](FlowVerdict& v) { archive_flow(a, v); });
+  a& r.still_at_edge;
 }
 
 template <class T, class Fields>

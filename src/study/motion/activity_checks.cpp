@@ -60,4 +60,18 @@ std::optional<Warning> no_response_warning(const Response& r) {
   return std::nullopt;
 }
 
+std::optional<Warning> edge_warning(const Response& r) {
+  // Cells on the dark line of the edge count for 0.55 to 1 of others (tests). Where they are a tenth of all,
+  // the error of the fraction is at most half of the 0.1 that is required of it.
+  constexpr double kMuch = 0.1;
+  if (!r.responds || !r.fraction || r.still_at_edge < kMuch) return std::nullopt;
+  return Warning{
+      "edge",
+      "objects stay beside the edge of the drop, where cells are difficult to distinguish from the "
+      "edge: the responding fraction can be wrong by more than its interval",
+      fmt::format("they have {:.0f} % of the contrast of all objects", 100 * r.still_at_edge),
+      "use a drop in which the cells do not gather at the edge, or crop the video so that the edge "
+      "is not in view"};
+}
+
 }  // namespace faba

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "core/random/distributions.h"
@@ -31,6 +32,7 @@ constexpr int kFineSteps = 5;                         // on each side of the rou
 constexpr double kLongestGap = 0.3;                   // s: cells turn and leave the picture
 constexpr double kExplained = 0.8;                    // fraction of the variance that the model must explain
 constexpr double kSignificant = 3;                    // standard errors of the fraction
+constexpr double kEdgeSizes = 3;  // of an object: what is beside the edge of a drop. Assumed
 
 // White noise of the video, treated as a picture.
 ObjectPicture noise_picture(const ResponseFrames& frames) {
@@ -205,6 +207,25 @@ std::vector<PairBlock> blocks_of(const Pictures& p, std::size_t gap, Vec2 along,
   return blocks;
 }
 
+double mass_of(const ObjectPicture& s, const std::function<bool(Vec2)>& counts) {
+  double mass = 0;
+  for (const SparsePixel& p : s.pixels)
+    if (counts({double(p.col), double(p.row)})) mass += double(s.light.at(p.col, p.row));
+  return mass;
+}
+
+double still_at_edge(const ResponseFrames& frames, const std::vector<ObjectPicture>& pictures) {
+  if (!frames.edge()) return 0;
+  const Circle& edge = *frames.edge();
+  double all = 0;
+  for (const ObjectPicture& s : pictures) all += mass_of(s, [](Vec2) { return true; });
+  const double still =
+      mass_of(object_picture(frames.still(), frames.object_px(), frames.noise()), [&](Vec2 at) {
+        return std::fabs(norm(at - edge.centre) - edge.radius) < kEdgeSizes * frames.object_px();
+      });
+  return all > 0 ? still * double(pictures.size()) / all : 0;
+}
+
 // `least`: half width at least, for values on a grid.
 std::array<double, 2> jackknife_interval(double value, const std::vector<double>& without, double least) {
   double mean = 0, squares = 0;
@@ -287,6 +308,7 @@ std::optional<CommonDisplacement> common_displacement(const ResponseFrames& fram
     const ShiftWindow turned = turned_to_motion(blocks, all, window, shift);
     CommonDisplacement c = result_of(blocks, all, turned, size, frames.side() / double(gap));
     c.gap = int(gap);
+    c.still_at_edge = still_at_edge(frames, p.pictures);
     return c;
   }
 }

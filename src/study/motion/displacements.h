@@ -21,6 +21,9 @@ struct CommonDisplacement {
   bool clear = false;                     ///< whether the model describes the measured distribution
   double opposite = 0;                    ///< the same fraction in the opposite direction, as a null value
   int gap = 1;                            ///< frames between the compared pictures
+  /// Contrast of the objects that do not move and are beside the edge of a drop, relative to that of all
+  /// objects in a picture.
+  double still_at_edge = 0;
 };
 
 /// Distribution of the displacements of all objects between pictures, without detection of single objects

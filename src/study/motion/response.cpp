@@ -121,6 +121,7 @@ void take_speed(Response& r, const CommonDisplacement& common, const ResponseFra
     r.fraction_method = "image correlation";
     return;
   }
+  r.still_at_edge = common.still_at_edge;
   if (!common.clear) return;
   const double speed = common.shift_px / frame_s;
   r.speed_px_s = {speed, {common.shift_ci90[0] / frame_s, common.shift_ci90[1] / frame_s}};

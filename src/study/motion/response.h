@@ -51,6 +51,8 @@ struct Response {
   std::optional<Measured>
       speed_px_s;  ///< mean, in the direction in which they move, of the responding objects
   std::optional<FlowVerdict> flow;
+  /// Contrast of the objects that stay beside the edge of a drop, relative to that of all objects.
+  double still_at_edge = 0;
 };
 
 /// Input of measure_response().

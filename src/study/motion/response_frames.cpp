@@ -69,24 +69,24 @@ void refine(Background& median, const std::vector<GrayF>& pictures, Pool& pool) 
   });
 }
 
-// The radius of the edge of a drop, px; infinity if none is detected.
-double edge_radius(const GrayF& background) {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
+// The edge of a drop, if one is detected.
+std::optional<Circle> edge_in(const GrayF& background) {
   const DropEdgeOptions options;
   try {
     const auto edge = search_drop_edge(prepare_drop_picture(background, options), options).accepted;
-    return edge ? edge->circle.radius : kNone;
+    return edge ? std::optional(edge->circle) : std::nullopt;
   } catch (const Error& e) {
     if (e.code() != Errc::input) throw;
-    return kNone;  // the picture is uniform or small
+    return {};  // the picture is uniform or small
   }
 }
 
 // The background with small objects filled. On the edge of a drop the segments are shorter, so that they
 // leave it by kSagitta and it does not count as objects; the shortest ones are bent as an edge that they
 // would leave by half a pixel.
-GrayF filled(const GrayF& background, double size_px, Pool& pool) {
-  const double radius = edge_radius(background), flat = 2 * std::sqrt(2 * kSagitta * radius);
+GrayF filled(const GrayF& background, const std::optional<Circle>& edge, double size_px, Pool& pool) {
+  const double radius = edge ? edge->radius : std::numeric_limits<double>::infinity();
+  const double flat = 2 * std::sqrt(2 * kSagitta * radius);
   const double length = std::max(3.0, std::clamp(flat, kShortSizes * size_px, kLongSizes * size_px));
   return line_closing(background, length, pool, radius).least;
 }
@@ -155,8 +155,11 @@ ResponseFrames::ResponseFrames(std::filesystem::path video, const VideoPart& par
   if (!(size_ > 0)) size_ = spot_size(middle, smooth, polarity, pool).px;
   if (!(size_ > 0)) size_ = kDefaultSize;
   refine(median, sampler.kept(), pool);
-  filled_ = filled(scaled(std::move(median.level), float(sign_)), size_, pool);
+  const GrayF level = scaled(std::move(median.level), float(sign_));
+  edge_ = edge_in(level);
+  filled_ = filled(level, edge_, size_, pool);
   if (polarity == Polarity::dark) gain_ = per_light(filled_);
+  still_ = objects_in(scaled(level, float(sign_)));
 }
 
 // The background of pictures in memory.

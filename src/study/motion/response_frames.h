@@ -2,9 +2,11 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "study/data/frame_inspector.h"
+#include "vision/drop/circle_fit.h"
 #include "vision/foreground/background.h"
 #include "vision/image/image.h"
 
@@ -62,8 +64,10 @@ class ResponseFrames {
   double object_px() const { return size_; }  ///< full width at half maximum of an object, px of the pictures
   double noise() const { return noise_; }     ///< standard deviation of a pixel, grey
   std::int64_t frames() const { return frames_; }
-  int width() const { return filled_.width; }    ///< px of the pictures
-  int height() const { return filled_.height; }  ///< px of the pictures
+  int width() const { return filled_.width; }                  ///< px of the pictures
+  int height() const { return filled_.height; }                ///< px of the pictures
+  const std::optional<Circle>& edge() const { return edge_; }  ///< of a drop, px of the pictures
+  const GrayF& still() const { return still_; }                ///< the objects that do not move
 
   unsigned threads() const { return threads_; }  ///< that work on a video
   /// Number of pictures that are worked on, or held, at a time.
@@ -89,8 +93,10 @@ class ResponseFrames {
   std::shared_ptr<ResponsePictures> pictures_;
   std::int64_t frames_ = 0;
   double size_ = 0, noise_ = 0, sign_ = 1;
+  std::optional<Circle> edge_;
   GrayF filled_;  ///< background in the sense of dark objects
   GrayF gain_;    ///< factor on the differences of dark objects; empty for bright ones
+  GrayF still_;
 };
 
 }  // namespace faba

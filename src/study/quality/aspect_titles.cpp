@@ -22,6 +22,7 @@ const std::map<std::string_view, const char*>& titles() {
       {"displacement", "Displacement between frames"},
       {"drag", "Drag of the cells"},
       {"drift", "Drift of the sample or the stage"},
+      {"edge", "Cells at the edge of the drop"},
       {"edges", "Several edges in the picture"},
       {"experiments", "Number of experiments"},
       {"failed", "Failed experiments"},
