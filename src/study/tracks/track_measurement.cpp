@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <optional>
 
 #include <fmt/format.h>
@@ -55,7 +57,8 @@ class TrackPass {
       tick(done);
     }
     tracker_.finish();
-    emit_tracks();
+    Pool all_threads(threads);
+    emit_tracks(all_threads);
     remove_drift();
   }
 
@@ -101,17 +104,19 @@ class TrackPass {
       ++repeated_times_;
     }
     listener_.frame(f.index, f.t_s, f.picture, tracker_);
-    emit_tracks();
+    emit_tracks(this_thread_);
   }
-  void emit_tracks() {
-    for (const Track& t : tracker_.finished()) {
-      listener_.track(t);
-      statistics_.take(t);
-      populations_.take(t);
-      links_.track(t);
-      scores_.take(t);
-      drift_.take(t);
-    }
+  // Each of those that take the tracks has them in their order.
+  void emit_tracks(Pool& pool) {
+    const auto tracks = tracker_.finished();
+    if (tracks.empty()) return;
+    const std::function<void(const Track&)> takers[] = {
+        [&](const Track& t) { listener_.track(t); },   [&](const Track& t) { statistics_.take(t); },
+        [&](const Track& t) { populations_.take(t); }, [&](const Track& t) { links_.track(t); },
+        [&](const Track& t) { scores_.take(t); },      [&](const Track& t) { drift_.take(t); }};
+    pool.run_uneven(std::size(takers), [&](std::size_t i) {
+      for (const Track& t : tracks) takers[i](t);
+    });
   }
   // Speeds and mean-square displacements relative to the stage, when it moves.
   void remove_drift() {
@@ -140,6 +145,7 @@ class TrackPass {
   SpotSums spots_;
   TrackDetection detection_;
   std::optional<DropMask> drop_;
+  Pool this_thread_{1};
   double last_s_ = -1;
   std::int64_t repeated_times_ = 0;
 };

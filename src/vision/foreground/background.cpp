@@ -81,7 +81,9 @@ Background BackgroundSampler::background(Pool& pool) const {
   const int w = kept_[0].width, h = kept_[0].height;
   b.level = b.noise_sd = GrayF(w, h);
   b.frames = int(kept_.size());
-  pool.for_blocks(b.level.px.size(), kPixelsPerBlock, [&](std::size_t begin, std::size_t end) {
+  const std::size_t pixels = b.level.px.size();
+  pool.run_uneven((pixels + kPixelsPerBlock - 1) / kPixelsPerBlock, [&](std::size_t block) {
+    const std::size_t begin = block * kPixelsPerBlock, end = std::min(pixels, begin + kPixelsPerBlock);
     temporal_medians(kept_, begin, end, b.level, b.noise_sd);
     for (std::size_t i = begin; i < end; ++i) b.noise_sd.px[i] *= float(kMadToSd);
   });

@@ -37,11 +37,30 @@ std::vector<Exchange> sorting_network(std::uint32_t n) {
   return network;
 }
 
+// The comparisons after which a place of a list of n values that fall and then rise has the value that it has
+// in the sorted list: those of a bitonic merge that lead to this place (Knuth, 5.3.4).
+std::vector<Exchange> selection_network(std::uint32_t n, std::uint32_t place) {
+  std::vector<Exchange> network;
+  std::uint32_t begin = 0;  // of the part that has the place
+  for (std::uint32_t d = std::bit_ceil(n) / 2; d > 0; d /= 2) {
+    for (std::uint32_t i = begin; i < begin + d && i + d < n; ++i) network.push_back({i, i + d});
+    if (place >= begin + d) begin += d;
+  }
+  return network;
+}
+
 /// A list of `count` values for each of kLongest pixels: value k of pixel i is values[k * kLongest + i].
 struct Lists {
+  explicit Lists(std::size_t n)
+      : values(n * kLongest),
+        count(n),
+        middle((n - 1) / 2),
+        sorting(sorting_network(std::uint32_t(n))),
+        selection(selection_network(std::uint32_t(n), std::uint32_t(middle))) {}
+
   std::vector<float> values;
-  std::size_t count;
-  std::vector<Exchange> network;
+  std::size_t count, middle;
+  std::vector<Exchange> sorting, selection;
 };
 
 // Replaces the values by their deviations, and returns both medians.
@@ -49,23 +68,22 @@ template <int bytes>
 [[gnu::always_inline]] inline void take_medians_in(Lists& lists, float* median, float* deviation) {
   using V = typename Wide<float, bytes>::type;
   constexpr std::size_t kLanes = std::size_t(bytes) / sizeof(float);
-  const std::size_t middle = (lists.count - 1) / 2;
   for (std::size_t first = 0; first < kLongest; first += kLanes) {
     float* const values = lists.values.data() + first;
     const auto at = [values](std::size_t k) -> V& { return *reinterpret_cast<V*>(values + k * kLongest); };
-    const auto sort = [&] {
-      for (const auto& [low, high] : lists.network) {
+    const auto compare = [&](const std::vector<Exchange>& network) {
+      for (const auto& [low, high] : network) {
         const V a = at(low), b = at(high);
         at(low) = a < b ? a : b;
         at(high) = a < b ? b : a;
       }
     };
-    sort();
-    const V m = at(middle);
+    compare(lists.sorting);
+    const V m = at(lists.middle);
     for (std::size_t k = 0; k < lists.count; ++k) at(k) = at(k) < m ? m - at(k) : at(k) - m;
-    sort();
+    compare(lists.selection);
     *reinterpret_cast<V*>(median + first) = m;
-    *reinterpret_cast<V*>(deviation + first) = at(middle);
+    *reinterpret_cast<V*>(deviation + first) = at(lists.middle);
   }
 }
 FABA_WIDE(take_medians, (Lists & lists, float* median, float* deviation), (lists, median, deviation))
@@ -74,8 +92,7 @@ FABA_WIDE(take_medians, (Lists & lists, float* median, float* deviation), (lists
 
 void temporal_medians(std::span<const GrayF> frames, std::size_t begin, std::size_t end, GrayF& median,
                       GrayF& deviation) {
-  Lists lists{std::vector<float>(frames.size() * kLongest), frames.size(),
-              sorting_network(std::uint32_t(frames.size()))};
+  Lists lists(frames.size());
   float medians[kLongest], deviations[kLongest];
   for (std::size_t first = begin; first < end; first += kLongest) {
     const std::size_t n = std::min(kLongest, end - first);
