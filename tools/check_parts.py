@@ -59,6 +59,7 @@ OTHER_MEANINGS = (
     ("edge", "where `compact` gathers the swarm", "src/control/compact.cpp"),
     ("edge", "a layer of the picture", "web/src/bench/draw.ts web/src/i18n/bench.ts web/src/workbench/Stage.svelte web/src/video/overlays.ts web/src/video/VideoViewer.svelte"),
     ("edge", "the edge of the drop: a step, a key, a place of cells", "web/src/own/own.ts web/src/own/EdgeStep.svelte web/src/own/CellsStep.svelte"),
+    ("edge", "the aspect of a warning", "src/study/motion/activity_checks.cpp src/study/quality/aspect_titles.cpp"),
     ("hold", "a parameter", "src/sim/agents/adapted.cpp src/sim/agents/basic.cpp"),
     ("hold", "the strength of a coil system, as a JSON key", "src/study/pages/field_report.cpp"),
     ("map", "a coil that is a measured map", "src/server/api/coils.cpp"),

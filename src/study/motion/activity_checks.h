@@ -20,8 +20,8 @@ std::optional<Warning> opposite_warning(const Signature& signature, double direc
 /// move along it.
 std::optional<Warning> no_response_warning(const Response& response);
 
-/// Much of the contrast of all objects stays beside the edge of a drop, where the fraction of the objects that
-/// respond is less certain than its interval.
+/// Much of the contrast of all objects stays beside the edge of a drop, where the fraction of the objects
+/// that respond is less certain than its interval.
 std::optional<Warning> edge_warning(const Response& response);
 
 }  // namespace faba
