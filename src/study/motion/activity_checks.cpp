@@ -61,8 +61,9 @@ std::optional<Warning> no_response_warning(const Response& r) {
 }
 
 std::optional<Warning> edge_warning(const Response& r) {
-  // Cells on the dark line of the edge count for 0.55 to 1 of others (tests). Where they are a tenth of all,
-  // the error of the fraction is at most half of the 0.1 that is required of it.
+  // Cells on the dark line of the edge count for 0.55 to 1 of others (tests). Where they have a tenth of the
+  // contrast, they are at most 17 % of the cells, and the fraction is too large by at most 0.07: below the
+  // 0.1 that is required of it. Assumed.
   constexpr double kMuch = 0.1;
   if (!r.responds || !r.fraction || r.still_at_edge < kMuch) return std::nullopt;
   return Warning{
