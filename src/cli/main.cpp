@@ -6,11 +6,8 @@
 #include <cstdio>
 #include <new>
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 #include "cli/command_line.h"
+#include "cli/process_memory.h"
 #include "cli/usage_message.h"
 #include "core/process/installation.h"
 #include "core/schema.h"
@@ -57,15 +54,6 @@ std::string command_of(const CLI::App& app, const std::vector<std::string>& argu
     at = at->get_subcommand(word);
   }
   return command;
-}
-
-// Freed memory of pictures stays with the process: to return it and request it again for every frame, or for
-// every simulation of a study, takes a tenth of the time, because the kernel clears each page.
-void keep_freed_memory() {
-#ifdef __GLIBC__
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // bytes; the largest permitted value
-  mallopt(M_TRIM_THRESHOLD, 1 << 30);
-#endif
 }
 
 int dispatch(int argc, char** argv) {

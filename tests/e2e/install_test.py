@@ -54,6 +54,12 @@ class Installed(unittest.TestCase):
             self.assertTrue((self.prefix / name).is_file(), name)
         self.assertTrue(list((self.prefix / "share/applications").glob("*.desktop")))
 
+    def test_libraries_are_not_searched_in_other_folders(self):
+        for program in (BUILD / "faba", self.prefix / "bin/faba"):
+            dynamic = subprocess.run(["readelf", "--dynamic", program], check=True, capture_output=True, text=True).stdout
+            self.assertIn("NEEDED", dynamic)
+            self.assertNotRegex(dynamic, "R(UN)?PATH", program)
+
     def test_same_bits_without_a_home_folder(self):
         words = ("run", "steer", "--seed", "1", "--duration", "1 s", "--json")
         here = subprocess.run([BUILD / "faba", *words, "--out", self.empty / "here"], check=True, capture_output=True, text=True)

@@ -1,6 +1,10 @@
-// The memory of the program does not grow with the length of a run.
+// The memory of the program: it does not grow with the length of a run, and the kernel may use large pages.
 #include <sys/resource.h>
 
+#include <fstream>
+#include <regex>
+
+#include "tests/e2e/child.h"
 #include "tests/e2e/program.h"
 
 using namespace faba;
@@ -12,6 +16,14 @@ long peak_kib() {
   rusage usage{};
   getrusage(RUSAGE_CHILDREN, &usage);
   return usage.ru_maxrss;
+}
+
+// Whether the process has asked for large pages in its heap.
+bool large_pages(pid_t process) {
+  std::ifstream regions("/proc/" + std::to_string(process) + "/smaps");
+  const std::string text(std::istreambuf_iterator<char>(regions), {});
+  const std::size_t heap = text.find("[heap]");
+  return heap != std::string::npos && std::regex_search(text.substr(heap), std::regex("VmFlags: .* hg\\b"));
 }
 
 }  // namespace
@@ -32,4 +44,16 @@ TEST_CASE("memory: ten times the frames of a run with videos and tracks need at 
   REQUIRE_MESSAGE(first > earlier, "an earlier process took more memory; run this file alone");
   MESSAGE("peak memory MiB: ", first / 1024, " for 4 s, ", second / 1024, " for 40 s");
   CHECK(double(second) <= 1.1 * double(first));
+}
+
+TEST_CASE("memory: a run of a million cells asks the kernel for large pages") {
+  if (!std::filesystem::exists("/sys/kernel/mm/transparent_hugepage")) {
+    MESSAGE("SKIPPED: this kernel has no large pages");
+    return;
+  }
+  const TestFolder f;
+  const Child run(
+      f.path, FABA_PROGRAM " run '" FABA_SCENES "/million.toml' --seed 1 --quiet --out run > /dev/null 2>&1");
+  CHECK(soon([&] { return large_pages(run.process()) || run.ended(); }));
+  CHECK(!run.ended());
 }

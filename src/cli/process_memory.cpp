@@ -1,0 +1,74 @@
+#include "cli/process_memory.h"
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+constexpr std::size_t kPicture = std::size_t(1) << 20;    // bytes, of a small one
+constexpr std::size_t kSeparate = std::size_t(32) << 20;  // bytes of a block outside of the heap
+constexpr std::size_t kHeapStep = std::size_t(64) << 20;  // bytes
+
+#ifdef MADV_HUGEPAGE
+constexpr std::uintptr_t kPage = std::uintptr_t(2) << 20;  // bytes of a large page on x86-64 and arm64
+
+std::atomic<std::uintptr_t> heap_with_large_pages = 0;  // its end
+
+// The kernel gives and clears the memory of pictures in large pages, and not in 500 times as many steps.
+// Asked for when the heap has grown: where memory was used before, its pages stay small. An error means that
+// this kernel has no large pages.
+void prefer_large_pages(void* block, std::size_t size) {
+  const auto advise = [](std::uintptr_t begin, std::uintptr_t end) {
+    begin = begin / kPage * kPage;
+    madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  };
+  const auto begin = reinterpret_cast<std::uintptr_t>(block);
+  if (size >= kSeparate) return advise(begin, begin + size);
+  const auto end = reinterpret_cast<std::uintptr_t>(sbrk(0));
+  const std::uintptr_t before = heap_with_large_pages.exchange(end);
+  if (end > before) advise(std::max(before, begin), end);
+}
+#else
+void prefer_large_pages(void*, std::size_t) {}
+#endif
+
+}  // namespace
+
+namespace faba::cli {
+
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  mallopt(M_MMAP_THRESHOLD, int(kSeparate));  // the largest permitted value
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
+  mallopt(M_TOP_PAD, int(kHeapStep));
+  mallopt(M_ARENA_MAX, 1);  // memory that a thread has freed is used by all
+#endif
+}
+
+}  // namespace faba::cli
+
+// The allocation functions of the program; those for arrays call them. Sanitizers have their own.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+void* operator new(std::size_t size) {
+  for (;;) {
+    if (void* memory = std::malloc(size > 0 ? size : 1)) {
+      if (size >= kPicture) prefer_large_pages(memory, size);
+      return memory;
+    }
+    const std::new_handler free_some = std::get_new_handler();
+    if (free_some == nullptr) throw std::bad_alloc();
+    free_some();
+  }
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+#endif
