@@ -1,8 +1,5 @@
 #include "cli/process_memory.h"
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -11,6 +8,10 @@
 #include <cstdint>
 #include <cstdlib>
 #include <new>
+
+#ifdef __GLIBC__  // defined by the headers above
+#include <malloc.h>
+#endif
 
 namespace {
 
@@ -21,20 +22,20 @@ constexpr std::size_t kHeapStep = std::size_t(64) << 20;  // bytes
 #ifdef MADV_HUGEPAGE
 constexpr std::uintptr_t kPage = std::uintptr_t(2) << 20;  // bytes of a large page on x86-64 and arm64
 
-std::atomic<std::uintptr_t> heap_with_large_pages = 0;  // its end
+std::atomic<char*> heap_with_large_pages = nullptr;  // its end
 
 // The kernel gives and clears the memory of pictures in large pages, and not in 500 times as many steps.
 // Asked for when the heap has grown: where memory was used before, its pages stay small. An error means that
 // this kernel has no large pages.
 void prefer_large_pages(void* block, std::size_t size) {
-  const auto advise = [](std::uintptr_t begin, std::uintptr_t end) {
-    begin = begin / kPage * kPage;
-    madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  const auto advise = [](char* begin, const char* end) {
+    begin -= reinterpret_cast<std::uintptr_t>(begin) % kPage;
+    madvise(begin, std::size_t(end - begin), MADV_HUGEPAGE);
   };
-  const auto begin = reinterpret_cast<std::uintptr_t>(block);
+  char* const begin = static_cast<char*>(block);
   if (size >= kSeparate) return advise(begin, begin + size);
-  const auto end = reinterpret_cast<std::uintptr_t>(sbrk(0));
-  const std::uintptr_t before = heap_with_large_pages.exchange(end);
+  char* const end = static_cast<char*>(sbrk(0));
+  char* const before = heap_with_large_pages.exchange(end);
   if (end > before) advise(std::max(before, begin), end);
 }
 #else
