@@ -254,28 +254,15 @@ void note_motion(VideoActivity& a) {
                           direction_text(a.direction_deg)));
 }
 
-// Widens the interval of a fraction: the objects in view are a sample, with a binomial variance of at least
-// that of one object. Of the objects that do not respond and swim in random directions, less than half are in
-// the window about the axis of the response, and add 1 or -1.
-void add_sampling_error(Measured& f, double objects) {
-  constexpr double k90 = 1.645;  // quantile of the normal distribution for a 90 % interval
-  const double least = 1 / objects;
-  const double p = std::clamp(f.value, least, 1 - least),
-               error = k90 * std::sqrt((p * (1 - p) + 0.5 * (1 - p)) / objects);
-  f.ci90 = {std::max(0.0, f.value - std::hypot(f.value - f.ci90[0], error)),
-            std::min(1.0, f.value + std::hypot(f.ci90[1] - f.value, error))};
-}
-
 void take_response(VideoActivity& a, const ActivityJob& job, std::shared_ptr<ResponsePictures> pictures) {
   ResponseJob response = response_job(job, a.input);
   response.frame_s = a.frame_s;
   response.pictures = std::move(pictures);
+  if (a.visible_cells && *a.visible_cells >= 2) response.objects = a.visible_cells;
   a.response = video_response(response, {a.signature, a.segments, a.direction_deg});
   if (!a.response) return;
   if (is_run(a.input.file) && !a.input.scale)
     a.um_per_px = read_run_info(a.input.file / "manifest.json").um_per_px;
-  if (a.response->fraction && a.visible_cells && *a.visible_cells >= 2)
-    add_sampling_error(*a.response->fraction, *a.visible_cells);
   // Nearest-neighbour distance of points at random, for the mean number in view.
   if (a.response->flow && a.visible_cells && *a.visible_cells >= 2)
     a.response->flow->neighbour_px = 0.5 * std::sqrt(a.view_px / *a.visible_cells);

@@ -32,6 +32,9 @@ constexpr int kFineSteps = 5;                         // on each side of the rou
 constexpr double kLongestGap = 0.3;                   // s: cells turn and leave the picture
 constexpr double kExplained = 0.8;                    // fraction of the variance that the model must explain
 constexpr double kSignificant = 3;                    // standard errors of the fraction
+// Fraction above which objects that swim in random directions hardly matter. What a part before the reversal
+// has, slow and fast objects in other proportions, would matter more. Assumed.
+constexpr double kMostRespond = 0.5;
 constexpr double kEdgeSizes = 3;  // of an object: what is beside the edge of a drop. Assumed
 
 // White noise of the video, treated as a picture.
@@ -167,7 +170,8 @@ struct Pictures {
   std::vector<DisplacementSums> self;
 };
 
-Pictures pictures_of(const ResponseFrames& frames, const VideoPart& part) {
+Pictures pictures_of(const ResponseFrames& frames, const VideoPart& part, const ObjectPicture& noise,
+                     const PictureCorrelator& correlate, Pool& pool) {
   Pictures p;
   std::vector<ObjectPicture> slots(frames.slots());
   const auto work = [&](std::size_t slot, const GrayF& objects, double) {
@@ -176,17 +180,20 @@ Pictures pictures_of(const ResponseFrames& frames, const VideoPart& part) {
   frames.each(part, work, [&](std::size_t slot) {
     if (p.pictures.size() < kMostFrames) p.pictures.push_back(std::move(slots[slot]));
   });
-  return p;
-}
-
-void correlate_with_themselves(Pictures& p, const ObjectPicture& noise, const PictureCorrelator& correlate,
-                               Pool& pool) {
   const DisplacementSums of_noise = correlate.between(noise, noise);
   p.self.resize(p.pictures.size());
   pool.run_uneven(p.pictures.size(), [&](std::size_t k) {
     p.self[k] = correlate.between(p.pictures[k], p.pictures[k]);
     p.self[k].add(of_noise, -1);
   });
+  return p;
+}
+
+// What swims against the direction swims along it backwards in time.
+Pictures played_backwards(Pictures p) {
+  std::reverse(p.pictures.begin(), p.pictures.end());
+  std::reverse(p.self.begin(), p.self.end());
+  return p;
 }
 
 std::vector<PairBlock> blocks_of(const Pictures& p, std::size_t gap, Vec2 along,
@@ -236,21 +243,35 @@ std::array<double, 2> jackknife_interval(double value, const std::vector<double>
   return {value - half, value + half};
 }
 
+/// The pairs of pictures of a part.
+struct Pairs {
+  std::vector<PairBlock> blocks;
+  PairBlock all;
+
+  explicit Pairs(std::vector<PairBlock> of) : blocks(std::move(of)) {
+    for (const PairBlock& b : blocks) all.add(b, 1);
+  }
+  /// The values of all pairs without those of a block, for each block.
+  template <class F>
+  std::vector<double> without_a_block(const F& value) const {
+    std::vector<double> values;
+    for (const PairBlock& b : blocks) {
+      PairBlock rest = all;
+      rest.add(b, -1);
+      values.push_back(value(rest));
+    }
+    return values;
+  }
+};
+
 // The window turned to the direction in which the objects with about this displacement move, if it differs
 // from the expected one by more than the 90 % interval.
-ShiftWindow turned_to_motion(const std::vector<PairBlock>& blocks, const PairBlock& all, ShiftWindow window,
-                             double shift) {
+ShiftWindow turned_to_motion(const Pairs& pairs, ShiftWindow window, double shift) {
   ShiftWindow wide = window;
   wide.half_width += PictureCorrelator::kMostTurn * shift;
   const auto across = [&](const PairBlock& b) { return b.next.across(wide, 0.5 * shift, 1.5 * shift); };
-  std::vector<double> without;
-  for (const PairBlock& b : blocks) {
-    PairBlock rest = all;
-    rest.add(b, -1);
-    without.push_back(across(rest));
-  }
-  const double off = across(all);
-  const std::array<double, 2> interval = jackknife_interval(off, without, 0);
+  const double off = across(pairs.all);
+  const std::array<double, 2> interval = jackknife_interval(off, pairs.without_a_block(across), 0);
   if (interval[0] <= 0 && interval[1] >= 0) return window;
   const double turn =
       std::clamp(std::atan2(off, shift), -PictureCorrelator::kMostTurn, PictureCorrelator::kMostTurn);
@@ -260,55 +281,73 @@ ShiftWindow turned_to_motion(const std::vector<PairBlock>& blocks, const PairBlo
 }
 
 // `scale`: px of the video per frame, of one px along the direction between two pictures.
-CommonDisplacement result_of(const std::vector<PairBlock>& blocks, const PairBlock& all,
-                             const ShiftWindow& window, double size, double scale) {
-  const ShiftFit fit = fit_of(all, window, size, 1);
-  std::vector<double> fractions, shifts;
-  for (const PairBlock& b : blocks) {
-    PairBlock rest = all;
-    rest.add(b, -1);
-    const ShiftFit f = fit_of(rest, window, size, 1);
-    fractions.push_back(f.fraction);
+ShiftedFraction result_of(const Pairs& pairs, const ShiftWindow& window, double size, double scale) {
+  const ShiftFit fit = fit_of(pairs.all, window, size, 1);
+  std::vector<double> shifts;
+  const auto fraction = [&](const PairBlock& block) {
+    const ShiftFit f = fit_of(block, window, size, 1);
     shifts.push_back(f.shift);
-  }
-  CommonDisplacement c;
-  c.fraction = fit.fraction;
-  c.shift_px = fit.shift * scale;
-  c.fraction_ci90 = jackknife_interval(fit.fraction, fractions, 0);
-  c.shift_ci90 = jackknife_interval(fit.shift, shifts, kShiftStep / 2);
-  for (double& v : c.shift_ci90) v *= scale;
-  c.clear = fit.explained > kExplained && c.fraction > 0 &&
-            (c.fraction_ci90[1] - c.fraction) * kSignificant / student_t_quantile(0.95, kPairBlocks - 1) <
-                c.fraction;
-  c.opposite = fit_of(all, window, size, -1).fraction;
-  return c;
+    return f.fraction;
+  };
+  ShiftedFraction r;
+  r.fraction = {fit.fraction, jackknife_interval(fit.fraction, pairs.without_a_block(fraction), 0)};
+  r.shift_px = {fit.shift * scale, jackknife_interval(fit.shift, shifts, kShiftStep / 2)};
+  for (double& v : r.shift_px.ci90) v *= scale;
+  const double error = (r.fraction.ci90[1] - fit.fraction) / student_t_quantile(0.95, kPairBlocks - 1);
+  r.clear = fit.explained > kExplained && fit.fraction > 0 && kSignificant * error < fit.fraction;
+  return r;
+}
+
+// The fraction of the objects with the displacements of another fit.
+Measured fraction_with(const Pairs& pairs, const ShiftWindow& window, const ShiftFit& fit) {
+  const auto fraction = [&](const PairBlock& b) {
+    return fit_with({b, b.next.profile(window), b.self.profile(window)}, fit.shift, fit.sd).fraction;
+  };
+  const double value = fraction(pairs.all);
+  return {value, jackknife_interval(value, pairs.without_a_block(fraction), 0)};
+}
+
+// The pairs of two parts, each part with the same weight.
+Pairs together(const Pairs& a, const Pairs& b) {
+  std::vector<PairBlock> blocks = a.blocks;
+  for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i].add(b.blocks[i], a.all.mass / b.all.mass);
+  return Pairs(std::move(blocks));
 }
 
 }  // namespace
 
-std::optional<CommonDisplacement> common_displacement(const ResponseFrames& frames, const VideoPart& part,
-                                                      double direction_deg, double frame_s) {
+std::optional<CommonDisplacement> common_displacement(const ResponseFrames& frames,
+                                                      const ResponseParts& parts, double direction_deg,
+                                                      double frame_s) {
   const double size = frames.object_px();
-  Pictures p = pictures_of(frames, part);
-  if (p.pictures.size() < kLeastShiftFrames) return {};
   Pool pool(frames.threads());
   const Vec2 along{std::cos(direction_deg * kDegree), std::sin(direction_deg * kDegree)};
   const ShiftWindow window{along, kHalfWidthSizes * size};
   const PictureCorrelator correlate(window);
-  correlate_with_themselves(p, noise_picture(frames), correlate, pool);
+  const ObjectPicture noise = noise_picture(frames);
+  const Pictures after = pictures_of(frames, parts.after, noise, correlate, pool);
+  if (after.pictures.size() < kLeastShiftFrames) return {};
   for (std::size_t gap = 1;; gap *= 2) {
-    const std::vector<PairBlock> blocks = blocks_of(p, gap, along, correlate, pool);
-    PairBlock all;
-    for (const PairBlock& b : blocks) all.add(b, 1);
-    if (!(all.mass > 0)) return {};
-    const double shift = fit_of(all, window, size, 1).shift;
+    const Pairs pairs(blocks_of(after, gap, along, correlate, pool));
+    if (!(pairs.all.mass > 0)) return {};
+    const double shift = fit_of(pairs.all, window, size, 1).shift;
     const bool longer = shift < kShiftSizes * size && 2 * double(gap) * frame_s <= kLongestGap &&
-                        p.pictures.size() >= 2 * gap + kLeastShiftFrames;
+                        after.pictures.size() >= 2 * gap + kLeastShiftFrames;
     if (longer) continue;
-    const ShiftWindow turned = turned_to_motion(blocks, all, window, shift);
-    CommonDisplacement c = result_of(blocks, all, turned, size, frames.side() / double(gap));
+    const ShiftWindow turned = turned_to_motion(pairs, window, shift);
+    const double scale = frames.side() / double(gap);
+    CommonDisplacement c;
+    c.after = result_of(pairs, turned, size, scale);
+    c.opposite = fit_of(pairs.all, turned, size, -1).fraction;
     c.gap = int(gap);
-    c.still_at_edge = still_at_edge(frames, p.pictures);
+    c.still_at_edge = still_at_edge(frames, after.pictures);
+    if (!parts.before || !c.after.clear || c.after.fraction.value > kMostRespond) return c;
+    const Pictures before = played_backwards(pictures_of(frames, *parts.before, noise, correlate, pool));
+    if (before.pictures.size() < gap + kPairBlocks) return c;
+    const Pairs earlier(blocks_of(before, gap, along, correlate, pool));
+    if (!(earlier.all.mass > 0)) return c;
+    c.before = fraction_with(earlier, turned, fit_of(pairs.all, turned, size, 1));
+    c.both = result_of(together(pairs, earlier), turned, size, scale);
     return c;
   }
 }

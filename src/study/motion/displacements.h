@@ -11,19 +11,40 @@ namespace faba {
 /// Frames that common_displacement() needs.
 inline constexpr std::size_t kLeastShiftFrames = 6;
 
-/// Displacement along one direction that a fraction of the objects has in common.
-struct CommonDisplacement {
-  double fraction = 0;  ///< of the objects in view, weighted by contrast
+/// A value with its 90 % interval.
+struct Measured {
+  double value = 0;
+  std::array<double, 2> ci90{};
+};
+
+/// Parts of a video: after a reversal, and one before it in which the objects may swim the other way.
+struct ResponseParts {
+  VideoPart after;
+  std::optional<VideoPart> before;
+};
+
+/// Displacement along one direction that a fraction of the objects has in common. Intervals are from
+/// delete-one-block estimates.
+struct ShiftedFraction {
+  Measured fraction;  ///< of the objects in view, weighted by contrast
   /// Mean displacement between consecutive frames, in the direction in which they move, px of the video.
-  double shift_px = 0;
-  std::array<double, 2> fraction_ci90{};  ///< from delete-one-block estimates
-  std::array<double, 2> shift_ci90{};     ///< likewise, px
-  bool clear = false;                     ///< whether the model describes the measured distribution
-  double opposite = 0;                    ///< the same fraction in the opposite direction, as a null value
-  int gap = 1;                            ///< frames between the compared pictures
+  Measured shift_px;
+  bool clear = false;  ///< whether the model describes the measured distribution
+};
+
+/// The common displacement after a reversal, and its opposite before it.
+struct CommonDisplacement {
+  ShiftedFraction after;
+  double opposite = 0;  ///< fraction with the opposite displacement after the reversal, as a null value
+  int gap = 1;          ///< frames between the compared pictures
   /// Contrast of the objects that do not move and are beside the edge of a drop, relative to that of all
-  /// objects in a picture.
+  /// objects.
   double still_at_edge = 0;
+  /// Fraction with the displacements of `after`, backwards in time, before the reversal. Given if `after` is
+  /// clear and at most a half, so that most objects may swim in random directions.
+  std::optional<Measured> before;
+  /// Of both parts, each with the same weight, that before backwards in time. Given with `before`.
+  ShiftedFraction both;
 };
 
 /// Distribution of the displacements of all objects between pictures, without detection of single objects
@@ -36,10 +57,11 @@ struct CommonDisplacement {
 /// displacement. A Gaussian distribution is fitted to it.
 ///
 /// `direction_deg`: image frame; the objects may move in a direction up to 20 degrees off, shifts are along
-/// theirs. Uses up to 64 frames of `part`; the gap between compared pictures is increased up to 0.3 s
+/// theirs. Uses up to 64 frames of each part; the gap between compared pictures is increased up to 0.3 s
 /// until the displacement is twice the size of an object, so that objects that move in other directions are
-/// distinguished. Empty with fewer than six frames or without any object.
-std::optional<CommonDisplacement> common_displacement(const ResponseFrames& frames, const VideoPart& part,
-                                                      double direction_deg, double frame_s);
+/// distinguished. Empty with fewer than six frames after the reversal or without any object.
+std::optional<CommonDisplacement> common_displacement(const ResponseFrames& frames,
+                                                      const ResponseParts& parts, double direction_deg,
+                                                      double frame_s);
 
 }  // namespace faba

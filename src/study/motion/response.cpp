@@ -18,6 +18,10 @@ constexpr double kEarlier = 0.5;      // s before the detected change at which t
 constexpr double kNormal90 = 1.645;   // quantile of the normal distribution for a 90 % interval
 constexpr double kAnyDirection = 12;  // independent possibilities of a direction that is not given. Assumed
 
+// Half widths of the 90 % interval of their difference by which the fractions before and after a reversal may
+// differ: equal ones hardly differ by more. Assumed.
+constexpr double kDiffer = 1.5;
+
 /// The components of one measure.
 struct ShiftComponents {
   std::vector<double> along, across;
@@ -108,33 +112,85 @@ std::optional<double> changed_direction(const PairShifts& p, ResponseJob job, do
   return any.direction_deg;
 }
 
-std::array<double, 2> clipped(std::array<double, 2> interval, double most) {
-  for (double& v : interval) v = std::clamp(v, 0.0, most);
+std::array<double, 2> clipped(std::array<double, 2> interval) {
+  for (double& v : interval) v = std::clamp(v, 0.0, 1.0);
   return interval;
 }
 
+// Variance of a fraction, times the number of objects, due to those that swim in random directions: less than
+// half of those that do not respond are in the window about the axis of the response, and add 1 or -1.
+double swimming_variance(double fraction) { return 0.5 * (1 - fraction); }
+
+// Variance of a fraction: the objects in view are a sample, with at least the binomial variance of one
+// object; those that swim in random directions are independent in different parts of a video.
+double sampling_variance(double fraction, double objects, double parts) {
+  const double p = std::clamp(fraction, 1 / objects, 1 - 1 / objects);
+  return (p * (1 - p) + swimming_variance(p) / parts) / objects;
+}
+
+// With an interval widened for the sample of objects, if their number is known.
+Measured sampled(Measured f, const std::optional<double>& objects, double parts) {
+  f = {std::min(f.value, 1.0), clipped(f.ci90)};
+  const double error = objects ? kNormal90 * std::sqrt(sampling_variance(f.value, *objects, parts)) : 0;
+  f.ci90 = {f.value - std::hypot(f.value - f.ci90[0], error),
+            f.value + std::hypot(f.ci90[1] - f.value, error)};
+  return {f.value, clipped(f.ci90)};
+}
+
+// Whether before the reversal objects swam the other way, as many of them as after it.
+bool both_ways(const CommonDisplacement& common, double objects) {
+  if (!common.before || !common.both.clear) return false;
+  const Measured &after = common.after.fraction, &before = *common.before;
+  const auto error = [&](const Measured& m) {
+    return std::hypot((m.ci90[1] - m.ci90[0]) / 2,
+                      kNormal90 * std::sqrt(swimming_variance(std::clamp(m.value, 0.0, 1.0)) / objects));
+  };
+  return before.value > error(before) &&
+         std::fabs(after.value - before.value) < kDiffer * std::hypot(error(after), error(before));
+}
+
 // Speed and fraction of a response. With free space around the swarm, the fraction is the velocity of the
-// centroid of all objects over the speed of the responding objects.
-void take_speed(Response& r, const CommonDisplacement& common, const ResponseFrames& frames, double frame_s) {
+// centroid of all objects over the speed of the responding objects. Otherwise the part before the reversal
+// counts, too, if it is alike: of the objects that swim in random directions more swim along the response
+// than against it, or fewer, and while they keep their directions the error has the opposite sign there.
+void take_speed(Response& r, const CommonDisplacement& common, const ResponseFrames& frames,
+                const ResponseJob& job) {
   if (!r.responds) {
-    r.fraction = {0, {0, std::clamp(std::max(common.fraction, common.opposite), 0.0, 1.0)}};
+    const double most = std::max(common.after.fraction.value, common.opposite);
+    r.fraction = sampled({0, {0, most}}, job.objects, 1);
     r.fraction_method = "image correlation";
     return;
   }
   r.still_at_edge = common.still_at_edge;
-  if (!common.clear) return;
-  const double speed = common.shift_px / frame_s;
-  r.speed_px_s = {speed, {common.shift_ci90[0] / frame_s, common.shift_ci90[1] / frame_s}};
-  r.flow = FlowVerdict{common.shift_px, frames.object_px() * frames.side(), {}};
-  r.fraction = {std::min(common.fraction, 1.0), clipped(common.fraction_ci90, 1)};
-  r.fraction_method = "image correlation";
+  if (!common.after.clear) return;
+  const bool both = job.objects && both_ways(common, *job.objects);
+  const ShiftedFraction& shifted = both ? common.both : common.after;
+  const Measured& shift = shifted.shift_px;
+  r.speed_px_s = {shift.value / job.frame_s, {shift.ci90[0] / job.frame_s, shift.ci90[1] / job.frame_s}};
+  r.flow = FlowVerdict{shift.value, frames.object_px() * frames.side(), {}};
+  r.fraction = sampled(shifted.fraction, job.objects, both ? 2 : 1);
+  r.fraction_method = both ? "image correlation before and after the reversal" : "image correlation";
   if (r.measure != word_of(ShiftMeasure::centroid)) return;
-  const double ratio = r.change.after / common.shift_px;
+  const double ratio = r.change.after / shift.value;
   const double error = std::hypot((r.change.after - r.change.before) / r.change.t_statistic / r.change.after,
-                                  (common.shift_ci90[1] / common.shift_px - 1) / kNormal90);
-  r.fraction = {std::min(ratio, 1.0),
-                clipped({ratio * (1 - kNormal90 * error), ratio * (1 + kNormal90 * error)}, 1)};
+                                  (shift.ci90[1] / shift.value - 1) / kNormal90);
+  r.fraction =
+      sampled({ratio, {ratio * (1 - kNormal90 * error), ratio * (1 + kNormal90 * error)}}, job.objects, 1);
   r.fraction_method = "centroid over image correlation";
+}
+
+// The parts in which the fraction is measured. A swarm with free space around it, and objects at the edge of
+// a drop in view, are measured after the reversal only: before it they may have been at the edge.
+ResponseParts parts_of(const Response& r, const ResponseFrames& frames, const VideoPart& part,
+                       std::optional<double> reversal_s) {
+  ResponseParts parts{part, {}};
+  parts.after.from_s = r.change.t_s + r.change.rise_s + kResponseWait;
+  parts.after.to_s = parts.after.from_s + kResponsePart;
+  if (frames.edge() || r.measure == word_of(ShiftMeasure::centroid)) return parts;
+  parts.before = part;
+  parts.before->to_s = reversal_s.value_or(r.change.ci90[0]);
+  parts.before->from_s = std::max(part.from_s, *parts.before->to_s - kResponsePart);
+  return parts;
 }
 
 }  // namespace
@@ -161,11 +217,9 @@ std::optional<Response> measure_response(const ResponseJob& job) {
   r.direction_deg = job.direction_deg.value_or(0);
   if (!take_clearest(r, shifts, job, *part.to_s)) return {};
   if (!r.responds && job.direction_deg) r.other_direction_deg = changed_direction(shifts, job, *part.to_s);
-  VideoPart after = part;
-  after.from_s = r.change.t_s + r.change.rise_s + kResponseWait;
-  after.to_s = after.from_s + kResponsePart;
-  if (const auto common = common_displacement(frames, after, r.direction_deg, job.frame_s))
-    take_speed(r, *common, frames, job.frame_s);
+  const ResponseParts parts = parts_of(r, frames, part, job.reversal_s);
+  if (const auto common = common_displacement(frames, parts, r.direction_deg, job.frame_s))
+    take_speed(r, *common, frames, job);
   return r;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "study/motion/displacements.h"
 #include "study/motion/onset.h"
 #include "study/motion/pair_shifts.h"
 
@@ -28,12 +29,6 @@ struct FlowVerdict {
   bool follows() const { return shift_px <= object_px; }
 };
 
-/// A fraction or a speed with its 90 % interval.
-struct Measured {
-  double value = 0;
-  std::array<double, 2> ci90{};
-};
-
 /// Response of the objects in a video to a field reversal (theory A16).
 struct Response {
   enum class Source { given, recorded, detected };
@@ -46,7 +41,8 @@ struct Response {
   /// Without a response in a given direction: that of another significant change of the velocity.
   std::optional<double> other_direction_deg = {};
   std::string fraction_method;  ///< of `fraction`; empty when it is unknown
-  /// Of the objects in view from 0.3 to 1.8 s after the rise; 0: no response.
+  /// Of the objects in view from 0.3 to 1.8 s after the rise, or of those and the objects in view before the
+  /// reversal that swim the other way; 0: no response.
   std::optional<Measured> fraction;
   std::optional<Measured>
       speed_px_s;  ///< mean, in the direction in which they move, of the responding objects
@@ -60,7 +56,8 @@ struct ResponseJob {
   std::filesystem::path video;  ///< anything VideoReader reads
   VideoPart part;
   std::optional<double> reversal_s, direction_deg;
-  double frame_s = 0;  ///< median time between frames
+  double frame_s = 0;                  ///< median time between frames
+  std::optional<double> objects = {};  ///< mean number in view, at least 2; for the error of the fraction
   unsigned threads = 0;
   std::function<void()> check = [] {};              ///< called for each frame that is read
   std::shared_ptr<ResponsePictures> pictures = {};  ///< that another reading has taken; may be empty

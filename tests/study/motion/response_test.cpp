@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "study/motion/activity_checks.h"
@@ -79,7 +80,7 @@ RenderedVideo at_the_edge(double speed_px_s, double distance, double radius = 55
 }
 
 std::optional<Response> measured(const RenderedVideo& v, double direction_deg = 0,
-                                 double reversal_s = kReversal) {
+                                 double reversal_s = kReversal, std::optional<double> objects = {}) {
   const test::TemporaryFolder folder("response");
   write_rendered(v, folder.path() / "v.avi");
   ResponseJob job;
@@ -87,6 +88,7 @@ std::optional<Response> measured(const RenderedVideo& v, double direction_deg = 
   job.reversal_s = reversal_s;
   job.direction_deg = direction_deg;
   job.frame_s = 1 / v.fps;
+  job.objects = objects;
   job.threads = 1;
   return measure_response(job);
 }
@@ -196,6 +198,46 @@ TEST_CASE("response: a quarter of the cells of an old sample respond") {
   const double at_random = std::sqrt(0.4 * (1 - kFraction) / kInView);
   CHECK(std::fabs(sum / kSamples) < 2 * at_random / std::sqrt(kSamples));
   CHECK(std::sqrt(squares / kSamples) < 1.4 * at_random);
+}
+
+// The same cells swim the other way before the reversal. The error of the mean of two independent fractions
+// is smaller by the square root of 2; these cells keep their directions, so that it is smaller still.
+TEST_CASE("response: the mean of the fractions before and after the reversal has a smaller error") {
+  constexpr int kSamples = 8, kCells = 180;
+  constexpr double kFraction = 0.25, kInView = 0.6 * kCells;
+  double squares = 0;
+  for (std::uint64_t seed = 1; seed <= kSamples; ++seed) {
+    const auto r = measured(swarm(kCells, kFraction, 55, seed), 0, kReversal, kInView);
+    REQUIRE(r);
+    REQUIRE(r->fraction);
+    CHECK(r->fraction_method == "image correlation before and after the reversal");
+    CHECK(r->fraction->ci90[0] < kFraction);
+    CHECK(r->fraction->ci90[1] > kFraction);
+    squares += std::pow(r->fraction->value - kFraction, 2);
+  }
+  CHECK(std::sqrt(squares / kSamples) < 1.4 * std::sqrt(0.4 * (1 - kFraction) / kInView / 2));
+}
+
+// Cells that wait, as at an edge outside of the picture, have no fraction before the reversal.
+TEST_CASE(
+    "response: the fraction of cells that do not swim the other way before is that after the reversal") {
+  for (const double fraction : {0.25, 0.4, 0.8}) {
+    RenderedVideo v = swarm(180, fraction, 55, 2);
+    const auto moving = v.cells;
+    const std::size_t responding = std::size_t(std::ceil(fraction * 180));
+    v.cells = [moving, responding](double t) {
+      std::vector<CameraCell> all = moving(t);
+      const std::vector<CameraCell> waiting = moving(std::max(t, kReversal));
+      std::copy_n(waiting.begin(), responding, all.begin());
+      return all;
+    };
+    const auto both = measured(v, 0, kReversal, 108.0), after = measured(v);
+    REQUIRE((both && both->fraction && after && after->fraction));
+    CHECK(both->fraction_method == "image correlation");
+    CHECK(both->fraction->value == after->fraction->value);
+    // Three standard deviations of the cells that swim in random directions, as above.
+    CHECK(std::fabs(both->fraction->value - fraction) < 3 * std::sqrt(0.4 * (1 - fraction) / 108));
+  }
 }
 
 // Both within half of the goals of bench/ageing.py.
