@@ -22,6 +22,7 @@ using namespace faba;
 using test::Served;
 using test::status_of;
 namespace fs = std::filesystem;
+using namespace std::chrono_literals;
 
 namespace {
 
@@ -45,18 +46,24 @@ void add_run(const fs::path& dir, std::uint8_t grey) {
   record(dir / "video.avi", grey);
 }
 
-/// Exchanges a folder and a link to a folder outside, again and again, until the end of its life.
+using Pause = std::chrono::microseconds;
+
+/// Exchanges a folder and a link to a folder outside, again and again, until the end of its life. The pauses
+/// between are 1, 2, 4 ... times the shortest one, up to the longest, and again: an act of any duration has
+/// time between two exchanges.
 class Exchange {
  public:
-  Exchange(const fs::path& folder, const fs::path& outside, std::chrono::microseconds pause = {})
+  Exchange(const fs::path& folder, const fs::path& outside, Pause shortest = {}, Pause longest = {})
       : folder_(folder), link_(folder.string() + "-link") {
     fs::create_directory_symlink(outside, link_);
-    thread_ = std::thread([this, pause] {
+    thread_ = std::thread([this, shortest, longest] {
+      Pause pause = shortest;
       while (!end_) {
         if (::renameat2(AT_FDCWD, folder_.c_str(), AT_FDCWD, link_.c_str(), RENAME_EXCHANGE) != 0)
           ++failures_;
         ++exchanges_;
         std::this_thread::sleep_for(pause);
+        pause = pause < longest ? 2 * pause : shortest;
       }
     });
   }
@@ -261,8 +268,10 @@ TEST_CASE("an import and a change write into the experiment, whatever replaces i
   };
   {
     // A slow exchange, because a request checks a path several times.
-    const Exchange exchange(f.root / "experiments/x", f.outside / "x", std::chrono::milliseconds(5));
-    for (int k = 0; k < 180; ++k) {
+    const Exchange exchange(f.root / "experiments/x", f.outside / "x", 1ms, 64ms);
+    const auto latest = std::chrono::steady_clock::now() + 60s;
+    for (int k = 0; k < 180 || ((imported == 0 || changed == 0) && std::chrono::steady_clock::now() < latest);
+         ++k) {
       try_to(imported, [&] {
         imports.take("x", {.name = fmt::format("a{}.pgm", k), .size = 2 * kPicture.size()}, kPicture);
       });
