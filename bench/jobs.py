@@ -158,8 +158,9 @@ def kill(b):
             time.sleep(0.001)
         time.sleep(complete.s * moments.uniform(0, 0.8))
         process.kill()
-        if process.wait() == 0:
-            continue  # it had ended before
+        manifest = out / "manifest.json"
+        if process.wait() == 0 or (manifest.exists() and json.loads(manifest.read_text()).get("complete")):
+            continue  # nothing was left to do
         with h5py.File(out / "tracks.h5", "r", swmr=True) as f:
             rows.append(len(f["position_px"]))
             b.check(rows[-1] == 0 or f["position_px"][rows[-1] - 1].shape == (20000, 2), "the last row of a killed run cannot be read")
