@@ -244,11 +244,11 @@ std::array<double, 2> jackknife_interval(double value, const std::vector<double>
 }
 
 /// The pairs of pictures of a part.
-struct Pairs {
+struct PicturePairs {
   std::vector<PairBlock> blocks;
   PairBlock all;
 
-  explicit Pairs(std::vector<PairBlock> of) : blocks(std::move(of)) {
+  explicit PicturePairs(std::vector<PairBlock> of) : blocks(std::move(of)) {
     for (const PairBlock& b : blocks) all.add(b, 1);
   }
   /// The values of all pairs without those of a block, for each block.
@@ -266,7 +266,7 @@ struct Pairs {
 
 // The window turned to the direction in which the objects with about this displacement move, if it differs
 // from the expected one by more than the 90 % interval.
-ShiftWindow turned_to_motion(const Pairs& pairs, ShiftWindow window, double shift) {
+ShiftWindow turned_to_motion(const PicturePairs& pairs, ShiftWindow window, double shift) {
   ShiftWindow wide = window;
   wide.half_width += PictureCorrelator::kMostTurn * shift;
   const auto across = [&](const PairBlock& b) { return b.next.across(wide, 0.5 * shift, 1.5 * shift); };
@@ -281,7 +281,7 @@ ShiftWindow turned_to_motion(const Pairs& pairs, ShiftWindow window, double shif
 }
 
 // `scale`: px of the video per frame, of one px along the direction between two pictures.
-ShiftedFraction result_of(const Pairs& pairs, const ShiftWindow& window, double size, double scale) {
+ShiftedFraction result_of(const PicturePairs& pairs, const ShiftWindow& window, double size, double scale) {
   const ShiftFit fit = fit_of(pairs.all, window, size, 1);
   std::vector<double> shifts;
   const auto fraction = [&](const PairBlock& block) {
@@ -299,7 +299,7 @@ ShiftedFraction result_of(const Pairs& pairs, const ShiftWindow& window, double 
 }
 
 // The fraction of the objects with the displacements of another fit.
-Measured fraction_with(const Pairs& pairs, const ShiftWindow& window, const ShiftFit& fit) {
+Measured fraction_with(const PicturePairs& pairs, const ShiftWindow& window, const ShiftFit& fit) {
   const auto fraction = [&](const PairBlock& b) {
     return fit_with({b, b.next.profile(window), b.self.profile(window)}, fit.shift, fit.sd).fraction;
   };
@@ -308,10 +308,10 @@ Measured fraction_with(const Pairs& pairs, const ShiftWindow& window, const Shif
 }
 
 // The pairs of two parts, each part with the same weight.
-Pairs together(const Pairs& a, const Pairs& b) {
+PicturePairs together(const PicturePairs& a, const PicturePairs& b) {
   std::vector<PairBlock> blocks = a.blocks;
   for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i].add(b.blocks[i], a.all.mass / b.all.mass);
-  return Pairs(std::move(blocks));
+  return PicturePairs(std::move(blocks));
 }
 
 }  // namespace
@@ -328,7 +328,7 @@ std::optional<CommonDisplacement> common_displacement(const ResponseFrames& fram
   const Pictures after = pictures_of(frames, parts.after, noise, correlate, pool);
   if (after.pictures.size() < kLeastShiftFrames) return {};
   for (std::size_t gap = 1;; gap *= 2) {
-    const Pairs pairs(blocks_of(after, gap, along, correlate, pool));
+    const PicturePairs pairs(blocks_of(after, gap, along, correlate, pool));
     if (!(pairs.all.mass > 0)) return {};
     const double shift = fit_of(pairs.all, window, size, 1).shift;
     const bool longer = shift < kShiftSizes * size && 2 * double(gap) * frame_s <= kLongestGap &&
@@ -344,7 +344,7 @@ std::optional<CommonDisplacement> common_displacement(const ResponseFrames& fram
     if (!parts.before || !c.after.clear || c.after.fraction.value > kMostRespond) return c;
     const Pictures before = played_backwards(pictures_of(frames, *parts.before, noise, correlate, pool));
     if (before.pictures.size() < gap + kPairBlocks) return c;
-    const Pairs earlier(blocks_of(before, gap, along, correlate, pool));
+    const PicturePairs earlier(blocks_of(before, gap, along, correlate, pool));
     if (!(earlier.all.mass > 0)) return c;
     c.before = fraction_with(earlier, turned, fit_of(pairs.all, turned, size, 1));
     c.both = result_of(together(pairs, earlier), turned, size, scale);
