@@ -191,6 +191,7 @@ def main():
     a.add_argument("--gymnasium", type=pathlib.Path, default=ROOT.parent / "shared/clients/gymnasium", help="a folder with Gymnasium")
     a.add_argument("--out", type=pathlib.Path, default=HERE / "results", help="folder of the results, default bench/results")
     o = a.parse_args()
+    o.out.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
         bench = Bench(o, pathlib.Path(folder))
         bench.loop()
