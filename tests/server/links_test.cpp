@@ -49,8 +49,8 @@ void add_run(const fs::path& dir, std::uint8_t grey) {
 using Pause = std::chrono::microseconds;
 
 /// Exchanges a folder and a link to a folder outside, again and again, until the end of its life. The pauses
-/// between are 1, 2, 4 ... times the shortest one, up to the longest, and again: an act of any duration has
-/// time between two exchanges.
+/// between are 1, 2, 4 ... times the shortest one, up to the longest, and again: also an act that takes
+/// nearly as long as the longest has time between two exchanges.
 class Exchange {
  public:
   Exchange(const fs::path& folder, const fs::path& outside, Pause shortest = {}, Pause longest = {})
