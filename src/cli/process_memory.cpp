@@ -36,7 +36,7 @@ void prefer_large_pages(void* block, std::size_t size) {
   if (size >= kSeparate) return advise(begin, begin + size);
   char* const end = static_cast<char*>(sbrk(0));
   char* const before = heap_with_large_pages.exchange(end);
-  if (end > before) advise(std::max(before, begin), end);
+  if (end > std::max(before, begin)) advise(std::max(before, begin), end);
 }
 #else
 void prefer_large_pages(void*, std::size_t) {}
@@ -52,6 +52,10 @@ void keep_freed_memory() {
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
   mallopt(M_TOP_PAD, int(kHeapStep));
   mallopt(M_ARENA_MAX, 1);  // memory that a thread has freed is used by all
+  // The heap grows now, so that small blocks and those of libraries are in large pages, too.
+  void* const picture = std::malloc(kPicture);
+  prefer_large_pages(picture, kPicture);
+  std::free(picture);
 #endif
 }
 
