@@ -85,6 +85,24 @@ int dispatch(int argc, char** argv) {
   return line.code;
 }
 
+int run(int argc, char** argv) {
+  const bool json =
+      std::any_of(argv + 1, argv + argc, [](const char* word) { return std::string("--json") == word; });
+  try {
+    const int code = dispatch(argc, argv);
+    if (std::fflush(stdout) != 0) throw Error(Errc::internal, "standard output", "cannot be written");
+    return code;
+  } catch (const Error& e) {
+    print_error({e.code(), e.where(), e.reason() + example_advice(e)}, json);
+    return int(e.code());
+  } catch (const std::bad_alloc&) {
+    print_error("out of memory; reduce the number of cells, the arena or the duration");
+  } catch (const std::exception& e) {
+    print_error(e.what());
+  }
+  return int(Errc::internal);
+}
+
 }  // namespace
 }  // namespace faba::cli
 
@@ -92,20 +110,5 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit is reported as a write error
   std::signal(SIGPIPE, SIG_IGN);  // a closed pipe is reported as a write error
   faba::cli::keep_freed_memory();
-  const bool json =
-      std::any_of(argv + 1, argv + argc, [](const char* word) { return std::string("--json") == word; });
-  try {
-    const int code = faba::cli::dispatch(argc, argv);
-    if (std::fflush(stdout) != 0)
-      throw faba::Error(faba::Errc::internal, "standard output", "cannot be written");
-    return code;
-  } catch (const faba::Error& e) {
-    faba::cli::print_error({e.code(), e.where(), e.reason() + faba::example_advice(e)}, json);
-    return int(e.code());
-  } catch (const std::bad_alloc&) {
-    faba::cli::print_error("out of memory; reduce the number of cells, the arena or the duration");
-  } catch (const std::exception& e) {
-    faba::cli::print_error(e.what());
-  }
-  return int(faba::Errc::internal);
+  faba::cli::end_process(faba::cli::run(argc, argv));
 }

@@ -6,11 +6,17 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
+#include <iostream>
 #include <new>
 
 #ifdef __GLIBC__  // defined by the headers above
 #include <malloc.h>
+#endif
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define FABA_OWN_MEMORY
 #endif
 
 namespace {
@@ -59,10 +65,20 @@ void keep_freed_memory() {
 #endif
 }
 
+void end_process(int code) {
+  std::cout.flush();
+  std::fflush(nullptr);
+#ifdef FABA_OWN_MEMORY
+  std::_Exit(code);
+#else
+  std::exit(code);  // the leak check
+#endif
+}
+
 }  // namespace faba::cli
 
 // The allocation functions of the program; those for arrays call them. Sanitizers have their own.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifdef FABA_OWN_MEMORY
 void* operator new(std::size_t size) {
   for (;;) {
     if (void* memory = std::malloc(size > 0 ? size : 1)) {

@@ -7,4 +7,7 @@ namespace faba::cli {
 /// has the program's operator new, which asks for large pages (docs/why.md).
 void keep_freed_memory();
 
+/// Ends the process without the destructors of static objects and libraries, which would only release memory.
+[[noreturn]] void end_process(int code);
+
 }  // namespace faba::cli
