@@ -6,6 +6,7 @@
 
 #include "tests/e2e/child.h"
 #include "tests/e2e/program.h"
+#include "tests/skip.h"
 
 using namespace faba;
 
@@ -66,7 +67,7 @@ TEST_CASE("memory: ten times the frames of a run with videos and tracks need at 
 TEST_CASE(
     "memory: a run asks the kernel for large pages from the beginning, and whenever its heap has grown") {
   if (!std::filesystem::exists("/sys/kernel/mm/transparent_hugepage")) {
-    MESSAGE("SKIPPED: this kernel has no large pages");
+    test::skip("this kernel has no large pages");
     return;
   }
   CHECK(asks_for_more_than(0, "thesis-basic", "600"));
