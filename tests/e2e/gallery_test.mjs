@@ -22,6 +22,8 @@ function pgm(name, w, h, grey) {
   writeFileSync(file, Buffer.concat([Buffer.from(`P5\n${w} ${h}\n255\n`), px]));
   return file;
 }
+/** Waits until the page has drawn two frames. */
+const drawn = () => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 /** A drop with a blurred edge and noise. */
 const drop = (x0, y0, r) => (x, y) => Math.round(110 + 40 / (1 + Math.exp(Math.hypot(x - x0, y - y0) - r)) + 6 * (Math.random() - 0.5));
 
@@ -256,9 +258,11 @@ await step('Portuguese, dark theme, small screen', async () => {
   await page.getByLabel('Tema claro ou escuro').click();
   await page.getByRole('heading', { name: 'Sua própria gota' }).waitFor();
   await page.setViewportSize({ width: 390, height: 844 });
-  for (const place of ['gallery', 'own/edge', 'lab']) {
+  for (const [place, content] of [['gallery', '.cards li'], ['own/edge', '.picture svg'], ['lab', '.stage']]) {
     await page.goto(new URL(`/#/${place}`, address).href);
-    await page.waitForTimeout(300);
+    await page.locator(content).first().waitFor({ state: 'visible' });
+    // The page learns the size of its window when the next frame is drawn, on a slow machine after seconds.
+    await drawn();
     assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 390, `${place} is wider than the screen of a phone`);
     await shot(`phone-${place.replace('/', '-')}`);
   }
