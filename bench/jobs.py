@@ -257,20 +257,22 @@ def kernels(b):
     if not b.o.before:
         return
     rows = {}
-    for name, build in (("now", b.o.program.parent), ("before", b.o.before.parent)):
-        for program in ("bench_agents", "bench_video"):
-            for line in Job([build / "bench" / program], b.folder).out.splitlines():
-                j = json.loads(line)
-                if j.get("kind") == "faba" and j["model"] == "basic" and j["agents"] == 1000000 and j["threads"] == 1:
-                    rows[name, j["order"]] = j["ns"]
-                elif j.get("what") == "converged" and j["threads"] == 1:
-                    rows[name, "multigrid"] = j["ms"] * 1e6
-                if j.get("kind") == "faba" and j["model"] == "dipole" and j["agents"] == 1000000 and j["threads"] == 1 and j["order"] == "none":
-                    rows[name, "dipole"] = j["ns"]
-    cost = {name: {"exclusion, published order, 1e6 cells": rows[name, "published"] - rows[name, "none"],
-                   "exclusion, two-phase, 1e6 cells": rows[name, "two-phase"] - rows[name, "none"],
-                   "multigrid flow, converged": rows[name, "multigrid"], "dipole step, 1e6 cells": rows[name, "dipole"]} for name in ("now", "before")}
-    b.add("", "## Kernels", "", "One thread. Exclusion: ns per cell of a step with it, less those of a step without it.", "",
+
+    def put(name, kernel, value):
+        rows[name, kernel] = min(value, rows.get((name, kernel), value))
+
+    builds = {"now": b.o.program.parent, "before": b.o.before.parent}
+    for name, program in [(name, program) for _ in range(b.o.rounds) for name in builds for program in ("bench_agents", "bench_video")]:
+        for line in Job([builds[name] / "bench" / program], b.folder).out.splitlines():
+            j = json.loads(line)
+            if j.get("kind") == "faba" and j["agents"] == 1000000 and j["threads"] == 1:
+                put(name, (j["model"], j["order"]), j["ns"])
+            elif j.get("what") == "converged" and j["threads"] == 1:
+                put(name, "multigrid", j["ms"] * 1e6)
+    cost = {name: {"exclusion, published order, 1e6 cells": rows[name, ("basic", "published")] - rows[name, ("basic", "none")],
+                   "exclusion, two-phase, 1e6 cells": rows[name, ("basic", "two-phase")] - rows[name, ("basic", "none")],
+                   "multigrid flow, converged": rows[name, "multigrid"], "dipole step, 1e6 cells": rows[name, ("dipole", "none")]} for name in ("now", "before")}
+    b.add("", "## Kernels", "", f"One thread, the fastest of {b.o.rounds} rounds in turn. Exclusion: ns per cell of a step with it, less those of a step without it.", "",
           "| kernel | earlier commit | now | times as fast | goal |", "|---|---|---|---|---|")
     for (kernel, before), goal in zip(cost["before"].items(), (2.5, 1.5, 1.35, None)):
         now = cost["now"][kernel]

@@ -19,7 +19,7 @@ import subprocess
 # Libraries of which code is in the programs: Debian's package and the licence of that code.
 COMPILED_IN = {"libtomlplusplus-dev": "MIT", "nlohmann-json3-dev": "MIT", "libcli11-dev": "BSD-3-Clause", "libeigen3-dev": "MPL-2.0",
                "libnanoflann-dev": "BSD-2-Clause", "liblemon-dev": "BSL-1.0", "libboost-dev": "BSL-1.0", "libopencv-video-dev": "Apache-2.0",
-               "pybind11-dev": "BSD-3-Clause"}
+               "libhdf5-dev": "BSD-3-Clause", "pybind11-dev": "BSD-3-Clause"}
 # Packages of the page of which code is in web/dist.
 IN_PAGE = {"svelte": "MIT", "uplot": "MIT", "clsx": "MIT", "esm-env": "MIT"}
 PROGRAMS = ("faba", "faba-coil-guard", "faba-capture.so")

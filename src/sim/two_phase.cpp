@@ -14,6 +14,7 @@ namespace {
 constexpr std::int32_t kGranted = -1;
 constexpr std::size_t kAgentsAtOnce = 1024;  // their sites fit into the L1 cache
 constexpr unsigned kRegionShift = 20;        // sites of a region: their bits take 0.4 MB in decide()
+constexpr std::size_t kAhead = 24;           // wishes whose words are fetched into the L1 cache in advance
 constexpr std::size_t kWords = 2;            // of a block of sites: 128 sites
 constexpr unsigned kSiteShift = 7;
 constexpr std::size_t kFlags = sizeof(std::uint64_t);  // blocks that are skipped at once
@@ -23,6 +24,9 @@ constexpr unsigned kMostParts = 8;    // each has three bits per site
 constexpr int kSweeps = 8;            // of follow()
 
 std::size_t word_of(std::int32_t site) { return std::size_t(site) >> 6; }
+
+/// Fetches a word that is written soon into the nearest cache.
+void fetch(const void* word) { __builtin_prefetch(word, 1); }
 
 }  // namespace
 
@@ -64,15 +68,14 @@ void TwoPhase::prepare(std::size_t agents, std::size_t words, unsigned parts) {
   blocks_ = (words / (kWords * kFlags) + 1) * kFlags;
   parts_.resize(std::max<std::size_t>(parts_.size(), parts));
   parts_used_ = parts;
-  free_.resize(words);
   before_.resize(words);
   for (std::size_t k = 0; k < parts; ++k) {
     Part& p = parts_[k];
     p.begin = agents * k / parts;
     p.end = agents * (k + 1) / parts;
     p.buckets.resize((words * 64 >> kRegionShift) + 1);
-    p.wishes.resize(p.end - p.begin);
-    p.contested.resize(p.end - p.begin + 1);  // decide() writes each wish to the end
+    p.wishes.resize(p.end - p.begin + kAhead);     // the last ones are read, but not used
+    p.contested.resize(p.end - p.begin + kAhead);  // decide() writes beyond the end
     p.requests.resize(words);
     p.left.resize_words(words);
     p.used.resize(blocks_);
@@ -131,9 +134,12 @@ void TwoPhase::sort(std::span<const float> x, std::span<const float> y, std::spa
 
 void TwoPhase::mark(Part& part) {
   std::uint8_t* const used = part.used.data();
+  const Wish* const wishes = part.wishes.data();
   Requests* const requests = part.requests.data();
   for (const Bucket& b : part.buckets)
-    for (const Wish& w : std::span(part.wishes).subspan(b.begin, b.end - b.begin)) {
+    for (std::size_t i = b.begin; i < b.end; ++i) {
+      fetch(&requests[word_of(wishes[i + kAhead].to)]);
+      const Wish w = wishes[i];
       Requests& r = requests[word_of(w.to)];
       r.more |= r.once & Sites::bit(w.to);
       r.once |= Sites::bit(w.to);
@@ -151,26 +157,38 @@ void TwoPhase::grant(const Sites& taken, std::size_t first_block, std::size_t en
       once |= r.once;
     }
     const std::uint64_t open = ~taken.words()[w];
-    free_[w] = {once & ~more & open, more & open};
+    parts_[0].requests[w] = {once & ~more & open, more & open};
   });
 }
 
-// Without branches: each wish is written to both lists, of which at most one advances. The list of the
-// refused ones is in the place of wishes that have been read.
+// Without branches. The list of the wishes that are not granted is in the place of those that have been read;
+// the sign of `from` distinguishes the contested ones until they are moved to their list.
 void TwoPhase::decide(Part& part) const {
-  Wish *const contested = part.contested.data(), *const refused = part.wishes.data();
-  const Free* const free = free_.data();
-  std::size_t contests = 0, refusals = 0;
-  for (const Bucket& b : part.buckets)
+  constexpr std::int32_t kContested = std::numeric_limits<std::int32_t>::min();
+  Wish* const wishes = part.wishes.data();
+  const Requests* const free = parts_[0].requests.data();
+  std::uint64_t* const left = part.left.words().data();
+  std::size_t others = 0;
+  for (const Bucket b : part.buckets)
     for (std::size_t i = b.begin; i < b.end; ++i) {
-      const Wish w = part.wishes[i];
-      const Free& f = free[word_of(w.to)];
-      const std::uint64_t granted = f.granted >> (w.to & 63) & 1, wanted = f.wanted >> (w.to & 63) & 1;
-      part.left.word(w.from) |= granted << (w.from & 63);
-      contested[contests] = refused[refusals] = w;
-      contests += wanted;
-      refusals += 1 - (granted | wanted);
+      fetch(&free[word_of(wishes[i + kAhead].to)]);
+      fetch(&left[word_of(wishes[i + kAhead].from)]);
+      const Wish w = wishes[i];
+      const Requests& f = free[word_of(w.to)];
+      const std::uint64_t granted = f.once >> (w.to & 63) & 1, wanted = f.more >> (w.to & 63) & 1;
+      left[word_of(w.from)] |= granted << (w.from & 63);
+      wishes[others] = {w.agent, w.from | (wanted != 0 ? kContested : 0), w.to};
+      others += 1 - granted;
     }
+  Wish* const contested = part.contested.data();
+  std::size_t contests = 0, refusals = 0;
+  for (std::size_t i = 0; i < others; ++i) {
+    const Wish w = wishes[i];
+    const std::size_t wanted = w.from < 0 ? 1 : 0;
+    contested[contests] = wishes[refusals] = {w.agent, w.from & ~kContested, w.to};
+    contests += wanted;
+    refusals += 1 - wanted;
+  }
   part.contests = contests;
   part.refusals = refusals;
 }
@@ -179,46 +197,57 @@ void TwoPhase::decide(Part& part) const {
 void TwoPhase::settle(std::uint64_t key) {
   const auto contested = [](const Part& p) { return p.contests > 0; };
   if (std::none_of(parts_.begin(), parts_.begin() + std::ptrdiff_t(parts_used_), contested)) return;
+  const Requests* const free = parts_[0].requests.data();
   std::uint32_t sites = 0;
   each_used_word(0, blocks_, [&](std::size_t w) {
-    if (free_[w].wanted == 0) return;  // popcount is a call
+    if (free[w].more == 0) return;  // popcount is a call
     before_[w] = sites;
-    sites += std::uint32_t(std::popcount(free_[w].wanted));
+    sites += std::uint32_t(std::popcount(free[w].more));
   });
   const auto rank = [&](std::int32_t site) {
-    const std::uint64_t smaller = free_[word_of(site)].wanted & (Sites::bit(site) - 1);
+    const std::uint64_t smaller = free[word_of(site)].more & (Sites::bit(site) - 1);
     return std::size_t(before_[word_of(site)]) + std::size_t(std::popcount(smaller));
   };
   best_.assign(sites, std::numeric_limits<std::uint64_t>::max());
   winner_.resize(sites);
+  ranks_.clear();
   for (const Part& p : std::span(parts_).first(parts_used_))
     for (const Wish& w : std::span(p.contested).first(p.contests)) {
       const std::size_t r = rank(w.to);
+      ranks_.push_back(std::uint32_t(r));
       const std::uint64_t mine = priority(key, w.to, w.agent);
       const bool better = mine <= best_[r];
       best_[r] = better ? mine : best_[r];
       winner_[r] = better ? w.agent : winner_[r];
     }
-  for (Part& p : std::span(parts_).first(parts_used_))
-    for (const Wish& w : std::span(p.contested).first(p.contests)) {
-      const std::uint64_t wins = winner_[rank(w.to)] == w.agent;
-      p.left.word(w.from) |= wins << (w.from & 63);
-      p.wishes[p.refusals] = w;
-      p.refusals += 1 - wins;
+  const std::uint32_t* r = ranks_.data();
+  for (Part& p : std::span(parts_).first(parts_used_)) {
+    std::uint64_t* const left = p.left.words().data();
+    Wish* const refused = p.wishes.data();
+    std::size_t refusals = p.refusals;
+    for (std::size_t i = 0; i < p.contests; ++i) {
+      fetch(&left[word_of(p.contested[i + kAhead].from)]);
+      const Wish w = p.contested[i];
+      const std::uint64_t wins = winner_[*r++] == w.agent;
+      left[word_of(w.from)] |= wins << (w.from & 63);
+      refused[refusals] = w;
+      refusals += 1 - wins;
     }
+    p.refusals = refusals;
+  }
 }
 
 // After all decisions: occupied sites are closed to all wishes.
 void TwoPhase::update(Sites& taken, std::size_t first_block, std::size_t end_block) {
   each_used_word(first_block, end_block, [&](std::size_t w) {
+    const Requests entered = parts_[0].requests[w];
     std::uint64_t left = 0;
     for (Part& p : std::span(parts_).first(parts_used_)) {
       left |= p.left.words()[w];
       p.requests[w] = {};
       p.left.words()[w] = 0;
     }
-    taken.words()[w] = (taken.words()[w] & ~left) | free_[w].granted | free_[w].wanted;
-    free_[w] = {};
+    taken.words()[w] = (taken.words()[w] & ~left) | entered.once | entered.more;
   });
   for (Part& p : std::span(parts_).first(parts_used_))
     std::fill(&p.used[first_block], &p.used[first_block] + (end_block - first_block), std::uint8_t{0});

@@ -38,12 +38,10 @@ class TwoPhase {
     std::uint32_t agent;
     std::int32_t from, to;  ///< `to` is kGranted for moves granted by follow()
   };
-  /// Bits of the same 64 sites, side by side: one access fetches both.
+  /// Bits of the same 64 sites, side by side: one access fetches both. First the sites that are requested at
+  /// least once and more than once; grant() leaves the free ones with one request and with several.
   struct Requests {
-    std::uint64_t once = 0, more = 0;  ///< sites that are requested at least once, more than once
-  };
-  struct Free {
-    std::uint64_t granted = 0, wanted = 0;  ///< free sites with one request, with several
+    std::uint64_t once = 0, more = 0;
   };
   /// The wishes for moves from a region of sites: elements of Part::wishes.
   struct Bucket {
@@ -53,11 +51,11 @@ class TwoPhase {
   struct Part {
     std::size_t begin = 0, end = 0;  ///< agents
     std::vector<Bucket> buckets;
-    /// Sorted into buckets by sort(); decide() moves the refused ones to the front.
+    /// Sorted into buckets by sort(); decide() moves those that are not granted to the front.
     std::vector<Wish> wishes;
     std::vector<Wish> contested;
     std::size_t contests = 0, refusals = 0;  ///< used elements of the lists
-    std::vector<Requests> requests;          ///< of each word of sites
+    std::vector<Requests> requests;          ///< of each word of sites; in the first part those of all
     Sites left;                              ///< sites that granted agents leave
     std::vector<std::uint8_t> used;          ///< 1 for blocks of sites from or to which an agent moves
     std::span<Wish> refused() { return std::span(wishes).first(refusals); }
@@ -79,11 +77,11 @@ class TwoPhase {
   std::vector<Part> parts_;
   std::size_t parts_used_ = 0;
   std::size_t words_ = 0, blocks_ = 0;  ///< of the bitmaps
-  std::vector<Free> free_;              ///< of each word of sites
   /// Of the wanted sites, in order: agent with the smallest priority so far. Their number before each
   /// word.
   std::vector<std::uint64_t> best_;
   std::vector<std::uint32_t> winner_, before_;
+  std::vector<std::uint32_t> ranks_;  ///< of the sites of the contested wishes
 };
 
 }  // namespace faba
