@@ -75,7 +75,7 @@ void TwoPhase::prepare(std::size_t agents, std::size_t words, unsigned parts) {
     p.end = agents * (k + 1) / parts;
     p.buckets.resize((words * 64 >> kRegionShift) + 1);
     p.wishes.resize(p.end - p.begin + kAhead);     // the last ones are read, but not used
-    p.contested.resize(p.end - p.begin + kAhead);  // decide() writes beyond the end
+    p.contested.resize(p.end - p.begin + kAhead);  // settle() reads beyond the end
     p.requests.resize(words);
     p.left.resize_words(words);
     p.used.resize(blocks_);
