@@ -13,7 +13,7 @@ namespace faba {
 /// memory. Several threads may use it at the same time.
 class KeptFlows {
  public:
-  static constexpr std::size_t kBytes = std::size_t{256} << 20;
+  static constexpr std::size_t kBytes = std::size_t{320} << 20;
 
   /// Keeps a copy of the flow between frames `frame` and `frame` + 1, if there is room.
   void keep(std::uint64_t frame, const Flow& flow);

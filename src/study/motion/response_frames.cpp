@@ -52,18 +52,20 @@ GrayF per_light(const GrayF& background) {
 
 // The median of pictures, refined by the mean of their values near it: a median of integers is an integer,
 // and where the light differs little its rounding has the form of wide objects.
-void refine(Background& median, const std::vector<GrayF>& pictures, Pool& pool) {
+void refine(Background& median, const std::vector<CompactImage>& pictures, Pool& pool) {
   constexpr std::size_t kPixelsPerBlock = 1 << 12;
   GrayF& level = median.level;
   pool.for_blocks(level.px.size(), kPixelsPerBlock, [&](std::size_t begin, std::size_t end) {
-    std::vector<float> sums(end - begin), counts(end - begin);
-    for (const GrayF& picture : pictures)
+    std::vector<float> sums(end - begin), counts(end - begin), greys(end - begin);
+    for (const CompactImage& picture : pictures) {
+      picture.copy(begin, end - begin, greys.data());
       for (std::size_t i = begin; i < end; ++i) {
-        const float d = picture.px[i] - level.px[i];
+        const float d = greys[i - begin] - level.px[i];
         const bool near = std::fabs(d) < float(kBackgroundSd) * median.noise_sd.px[i] + float(kHalfStep);
         sums[i - begin] += near ? d : 0.0F;
         counts[i - begin] += near ? 1.0F : 0.0F;
       }
+    }
     for (std::size_t i = begin; i < end; ++i)
       level.px[i] += sums[i - begin] / std::max(counts[i - begin], 1.0F);
   });
@@ -110,7 +112,7 @@ FrameInspector ResponsePictures::inspector() {
             return kept_ && part_.holds(t_s);
           },
           [this](const GrayF& frame) -> std::function<void()> {
-            pictures_.push_back({t_s_, reduced(frame, side_)});
+            pictures_.push_back({t_s_, CompactImage(reduced(frame, side_))});
             kept_ = pictures_.size() * bytes_ <= most_bytes_;  // else the file has more frames than it states
             if (!kept_) pictures_.clear();
             return {};
@@ -145,7 +147,7 @@ ResponseFrames::ResponseFrames(std::filesystem::path video, const VideoPart& par
   Background median = sampler.background(pool);
   std::vector<float> noise(median.noise_sd.px);
   noise_ = double(median_low(noise));
-  const GrayF& middle = sampler.kept()[sampler.kept().size() / 2];
+  const GrayF middle = sampler.kept()[sampler.kept().size() / 2].image();
   const Background smooth = spatial_background(middle, kSmoothing);
   std::vector<float> differences(middle.px.size());
   for (std::size_t i = 0; i < differences.size(); ++i) differences[i] = middle.px[i] - smooth.level.px[i];
@@ -168,7 +170,7 @@ void ResponseFrames::take(const VideoPart& part, BackgroundSampler& sampler) {
     if (!part.holds(p.t_s)) continue;
     ++frames_;
     if (sampler.needs_next())
-      sampler.take(p.grey);
+      sampler.take(p.grey.image());
     else
       sampler.skip();
   }
@@ -246,7 +248,7 @@ void ResponseFrames::each(const VideoPart& part,
     return true;
   };
   const auto on_picture = [&](std::size_t slot, unsigned) {
-    work(slot, objects_in(pictures[slot]->grey), pictures[slot]->t_s);
+    work(slot, objects_in(pictures[slot]->grey.image()), pictures[slot]->t_s);
   };
   OrderedWork all(threads_, {next, on_picture});
   while (const std::optional<std::size_t> slot = all.next()) {

@@ -20,7 +20,7 @@ class ResponsePictures {
  public:
   struct Picture {
     double t_s;
-    GrayF grey;
+    CompactImage grey;
   };
   /// None are kept if they need more than `most_bytes`.
   explicit ResponsePictures(const VideoPart& part, std::size_t most_bytes = 256u << 20)

@@ -56,7 +56,8 @@ void warn_background(TrackSurvey& s, const Background& median, const Background&
        "look at --preview; give the --size and --threshold of the objects, or a --region"});
 }
 
-void choose_background(const TrackOptions& o, TrackSurvey& s, const SurveyedFrames& frames, Pool& pool) {
+void choose_background(const TrackOptions& o, TrackSurvey& s, const SurveyedFrames& frames, Pool& pool,
+                       SurveyScope scope) {
   const GrayF& middle = frames.middle;
   const Background &median = frames.median, &fine = frames.fine;
   const bool many = s.frames >= kFewFrames;
@@ -83,9 +84,11 @@ void choose_background(const TrackOptions& o, TrackSurvey& s, const SurveyedFram
       [&] {
         stationary = count_spots(o, s, spatial_background(median.level, s.smoothing_px), median.level);
       }};
-  pool.run_uneven(many ? std::size(counts) : 1, [&](std::size_t i) { counts[i](); });
+  const std::size_t wanted = !many ? 1 : scope == SurveyScope::input ? 2 : std::size(counts);
+  pool.run_uneven(wanted, [&](std::size_t i) { counts[i](); });
   s.stationary_spots = stationary;
-  if (many && !(o.size_px > 0 && o.threshold_sd > 0)) warn_background(s, median, smooth);
+  if (scope == SurveyScope::all && many && !(o.size_px > 0 && o.threshold_sd > 0))
+    warn_background(s, median, smooth);
   s.temporal = o.background == BackgroundKind::median ||
                (o.background == BackgroundKind::automatic && many && 2 * by_time >= by_space);
   s.spots = s.temporal ? by_time : by_space;
@@ -159,18 +162,22 @@ bool TrackSurveyor::needs(double t_s) {
 }
 
 void TrackSurveyor::take(const GrayF& frame) {
-  GrayF finite = frame;
-  make_finite(finite);
+  GrayF finite, small;
+  const GrayF* used = &frame;
+  if (!all_finite(frame)) {
+    finite = frame;
+    make_finite(finite);
+    used = &finite;
+  }
   if (side_ > 1) {
-    GrayF small;
-    shrink(finite, side_, small);
-    finite = std::move(small);
+    shrink(*used, side_, small);
+    used = &small;
   }
   if (frames_ == 1) {
-    first_ = finite;
-    region_ = searched_region(options_, finite.width, finite.height);
+    first_ = *used;
+    region_ = searched_region(options_, used->width, used->height);
   }
-  sampler_.take(options_.region ? cropped(finite, region_) : std::move(finite));
+  sampler_.take(options_.region ? cropped(*used, region_) : *used);
 }
 
 SurveyedFrames TrackSurveyor::surveyed(int bits, bool timed, Pool& pool) const {
@@ -186,7 +193,7 @@ SurveyedFrames TrackSurveyor::surveyed(int bits, bool timed, Pool& pool) const {
     std::vector<double> gaps = gaps_;
     s.frame_s = median_high(gaps);
   }
-  out.middle = sampler_.kept()[sampler_.kept().size() / 2];
+  out.middle = sampler_.kept()[sampler_.kept().size() / 2].image();
   const GrayF& middle = out.middle;
   if (side_ == 1) s.coding = coding_traces(sampler_.kept(), pool);
   const std::function<void()> jobs[] = {
@@ -203,14 +210,14 @@ SurveyedFrames TrackSurveyor::surveyed(int bits, bool timed, Pool& pool) const {
   return out;
 }
 
-TrackSurvey survey_of(const TrackOptions& o, const SurveyedFrames& frames, Pool& pool) {
+TrackSurvey survey_of(const TrackOptions& o, const SurveyedFrames& frames, Pool& pool, SurveyScope scope) {
   TrackSurvey s = frames.survey;
-  choose_background(o, s, frames, pool);
+  choose_background(o, s, frames, pool, scope);
   return s;
 }
 
-TrackSurvey TrackSurveyor::result(int bits, bool timed, Pool& pool) const {
-  return survey_of(options_, surveyed(bits, timed, pool), pool);
+TrackSurvey TrackSurveyor::result(int bits, bool timed, Pool& pool, SurveyScope scope) const {
+  return survey_of(options_, surveyed(bits, timed, pool), pool, scope);
 }
 
 TrackSurvey survey_tracks(const TrackOptions& o, const std::filesystem::path& video,

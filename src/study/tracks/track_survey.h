@@ -51,8 +51,12 @@ struct SurveyedFrames {
   GrayF middle;        ///< the middle one of the sampled frames, in the region
 };
 
+/// What a survey has to find: the input of the second pass, or also its warnings and stationary spots.
+enum class SurveyScope { input, all };
+
 /// Determines the rest of the survey for these options.
-TrackSurvey survey_of(const TrackOptions& o, const SurveyedFrames& frames, Pool& pool);
+TrackSurvey survey_of(const TrackOptions& o, const SurveyedFrames& frames, Pool& pool,
+                      SurveyScope scope = SurveyScope::all);
 
 /// The first pass over a video, frame by frame.
 class TrackSurveyor {
@@ -66,7 +70,7 @@ class TrackSurveyor {
 
   /// The result, when all frames were taken. `bits`, `timed`: see TrackSurvey. There must be at least one
   /// frame.
-  TrackSurvey result(int bits, bool timed, Pool& pool) const;
+  TrackSurvey result(int bits, bool timed, Pool& pool, SurveyScope scope = SurveyScope::all) const;
   /// The part of it that does not depend on the options for spots.
   SurveyedFrames surveyed(int bits, bool timed, Pool& pool) const;
 

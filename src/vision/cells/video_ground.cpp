@@ -54,14 +54,16 @@ class Changes {
   std::vector<std::uint64_t> count_ = std::vector<std::uint64_t>(kChangeBins);
 };
 
-GrayF quantile_over_time(const std::vector<GrayF>& frames, double quantile, unsigned threads) {
+GrayF quantile_over_time(const std::vector<CompactImage>& frames, double quantile, unsigned threads) {
   constexpr std::size_t kPixelsPerBlock = 4096;
-  GrayF out(frames.front().width, frames.front().height);
+  GrayF out(frames.front().width(), frames.front().height());
   Pool pool(threads);
   pool.for_blocks(out.px.size(), kPixelsPerBlock, [&](std::size_t begin, std::size_t end) {
-    std::vector<float> values(frames.size());
+    const std::size_t n = end - begin;
+    std::vector<float> greys(frames.size() * n), values(frames.size());
+    for (std::size_t k = 0; k < frames.size(); ++k) frames[k].copy(begin, n, &greys[k * n]);
     for (std::size_t i = begin; i < end; ++i) {
-      for (std::size_t k = 0; k < frames.size(); ++k) values[k] = frames[k].px[i];
+      for (std::size_t k = 0; k < frames.size(); ++k) values[k] = greys[k * n + i - begin];
       out.px[i] = quantile_nearest(values, quantile);
     }
   });

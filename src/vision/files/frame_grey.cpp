@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "vision/files/ffmpeg.h"
-#include "vision/files/kernels/luma.h"
 #include "vision/image/grey_of.h"
+#include "vision/image/kernels/grey_map.h"
 
 namespace faba {
 namespace {
@@ -65,7 +65,8 @@ std::array<float, 256> palette_table(const RawFrame& frame) {
 // 8-bit grey or luma.
 void by_luma(const RawFrame& frame, const GreyMap& scale, GrayF& out) {
   for (int row = 0; row < out.height; ++row)
-    grey_of_luma(frame.planes[0] + std::ptrdiff_t{row} * frame.strides[0], scale, &out.at(0, row), out.width);
+    map_greys(frame.planes[0] + std::ptrdiff_t{row} * frame.strides[0], std::size_t(out.width), scale,
+              &out.at(0, row));
 }
 
 // Any memory layout: libav unpacks one row of one channel per call.

@@ -54,8 +54,8 @@ std::uint64_t BackgroundSampler::stride_for(std::uint64_t frames, std::size_t pi
   return stride;
 }
 
-void BackgroundSampler::take(GrayF frame) {
-  if (!kept_.empty() && (frame.width != kept_[0].width || frame.height != kept_[0].height))
+void BackgroundSampler::take(const GrayF& frame) {
+  if (!kept_.empty() && (frame.width != kept_[0].width() || frame.height != kept_[0].height()))
     throw Error(Errc::internal, "", "the frame differs in size from the previous frames of the background");
   const bool wanted = needs_next();
   ++seen_;
@@ -63,11 +63,11 @@ void BackgroundSampler::take(GrayF frame) {
   if (kept_.size() >= most_kept(frame.px.size())) {
     std::size_t to = 0;
     for (std::size_t from = 0; from < kept_.size(); from += 2) std::swap(kept_[to++], kept_[from]);
-    kept_.resize(to);
+    kept_.erase(kept_.begin() + std::ptrdiff_t(to), kept_.end());
     stride_ *= 2;
     if ((seen_ - 1) % stride_ != 0) return;
   }
-  kept_.push_back(std::move(frame));
+  kept_.emplace_back(frame);
 }
 
 Background BackgroundSampler::background() const {
@@ -78,7 +78,7 @@ Background BackgroundSampler::background() const {
 Background BackgroundSampler::background(Pool& pool) const {
   Background b;
   if (kept_.empty()) return b;
-  const int w = kept_[0].width, h = kept_[0].height;
+  const int w = kept_[0].width(), h = kept_[0].height();
   b.level = b.noise_sd = GrayF(w, h);
   b.frames = int(kept_.size());
   const std::size_t pixels = b.level.px.size();

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/threads/parallel.h"
+#include "vision/image/compact_image.h"
 #include "vision/image/image.h"
 
 namespace faba {
@@ -23,8 +24,8 @@ struct Background {
 };
 
 /// Background model from frames sampled over a video of unknown length, passed in order. Keeps at most
-/// `most_frames` frames and at most `most_bytes` of memory: when full, every second frame is dropped and the
-/// stride is doubled.
+/// `most_frames` frames, and not more than need `most_bytes` as floats: when full, every second frame is
+/// dropped and the stride is doubled.
 class BackgroundSampler {
  public:
   explicit BackgroundSampler(int most_frames = 50, std::size_t most_bytes = 256u << 20);
@@ -33,12 +34,12 @@ class BackgroundSampler {
   bool needs_next() const { return seen_ % stride_ == 0; }
   void skip() { ++seen_; }
   /// Offers the next frame. All frames must have the same size, else Error(Errc::internal).
-  void take(GrayF frame);
+  void take(const GrayF& frame);
   /// The final stride for a video of `frames` frames of `pixels` pixels: one of this number of frames is
   /// sampled.
   std::uint64_t stride_for(std::uint64_t frames, std::size_t pixels) const;
   /// Frames sampled so far.
-  const std::vector<GrayF>& kept() const { return kept_; }
+  const std::vector<CompactImage>& kept() const { return kept_; }
 
   /// Per pixel, the median of the sampled frames; noise: 1.4826 times the median absolute deviation, smoothed
   /// over 9 px because the statistical error of the estimate is large (12 % for 50 frames), at least a
@@ -54,7 +55,7 @@ class BackgroundSampler {
   int most_frames_;
   std::size_t most_bytes_;
   std::uint64_t seen_ = 0, stride_ = 1;
-  std::vector<GrayF> kept_;
+  std::vector<CompactImage> kept_;
 };
 
 /// Background of a single frame: Gaussian smoothing with `sd_px`, which should be several times the object

@@ -22,8 +22,8 @@ struct Steps {
   std::vector<double> across, down;
   double blocks = 0, equal = 0;
 
-  explicit Steps(const GrayF& frame)
-      : across(std::size_t(frame.width - 1)), down(std::size_t(frame.height - 1)) {}
+  explicit Steps(const CompactImage& frame)
+      : across(std::size_t(frame.width() - 1)), down(std::size_t(frame.height() - 1)) {}
   void add(const Steps& other) {
     for (std::size_t i = 0; i < across.size(); ++i) across[i] += other.across[i];
     for (std::size_t i = 0; i < down.size(); ++i) down[i] += other.down[i];
@@ -88,11 +88,12 @@ bool changed(const GrayF& change, int left, int top) {
 
 }  // namespace
 
-CodingTraces coding_traces(const std::vector<GrayF>& frames, Pool& pool) {
-  if (frames.size() < 2 || std::min(frames[0].width, frames[0].height) < kSmallestFrame) return {};
+CodingTraces coding_traces(const std::vector<CompactImage>& frames, Pool& pool) {
+  if (frames.size() < 2 || std::min(frames[0].width(), frames[0].height()) < kSmallestFrame) return {};
   std::vector<Steps> pairs(std::min(frames.size() - 1, kMostPairs), Steps(frames[0]));
   pool.run_uneven(pairs.size(), [&](std::size_t k) {
-    const GrayF change = difference(frames[k + 1], frames[k]);
+    GrayF change = frames[k + 1].image();
+    subtract(change, frames[k].image());
     add_steps(change, pairs[k]);
     for_blocks(change, [&](int x, int y) {
       pairs[k].blocks += 1;

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "core/threads/parallel.h"
+#include "vision/image/compact_image.h"
 #include "vision/image/image.h"
 
 namespace faba {
@@ -24,7 +25,7 @@ struct CodingTraces {
 /// The traces in the differences of successive `frames` of equal size, at most the first 12 pairs. Frames
 /// that were averaged over blocks or resized have no grid. Zero for frames smaller than 64 px. The result
 /// does not depend on the number of threads.
-CodingTraces coding_traces(const std::vector<GrayF>& frames, Pool& pool);
+CodingTraces coding_traces(const std::vector<CompactImage>& frames, Pool& pool);
 
 /// Noise of a filtered `response` in the blocks in which `difference`, that of a frame from the background,
 /// is not zero: its 80 % quantile as that of a normal distribution (the errors of coding have a wide

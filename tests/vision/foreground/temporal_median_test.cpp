@@ -15,9 +15,10 @@ TEST_CASE("temporal medians are those of each pixel's list, for any number of fr
     std::vector<GrayF> frames(count, GrayF(37, 3));
     for (GrayF& frame : frames)
       for (float& v : frame.px) v = 0.25F * float(grey(random));
+    const std::vector<CompactImage> kept(frames.begin(), frames.end());
     GrayF median(37, 3, -1), deviation(37, 3, -1);
     const std::size_t begin = 5, end = 106;
-    temporal_medians(frames, begin, end, median, deviation);
+    temporal_medians(kept, begin, end, median, deviation);
     for (std::size_t i = 0; i < median.px.size(); ++i) {
       CAPTURE(count);
       CAPTURE(i);

@@ -90,14 +90,13 @@ FABA_WIDE(take_medians, (Lists & lists, float* median, float* deviation), (lists
 
 }  // namespace
 
-void temporal_medians(std::span<const GrayF> frames, std::size_t begin, std::size_t end, GrayF& median,
+void temporal_medians(std::span<const CompactImage> frames, std::size_t begin, std::size_t end, GrayF& median,
                       GrayF& deviation) {
   Lists lists(frames.size());
   float medians[kLongest], deviations[kLongest];
   for (std::size_t first = begin; first < end; first += kLongest) {
     const std::size_t n = std::min(kLongest, end - first);
-    for (std::size_t k = 0; k < frames.size(); ++k)
-      std::copy_n(&frames[k].px[first], n, &lists.values[k * kLongest]);
+    for (std::size_t k = 0; k < frames.size(); ++k) frames[k].copy(first, n, &lists.values[k * kLongest]);
     take_medians(lists, medians, deviations);
     std::copy_n(medians, n, &median.px[first]);
     std::copy_n(deviations, n, &deviation.px[first]);
