@@ -8,7 +8,8 @@ namespace {
 constexpr GreyMap kFull, kLimited{16, 255.0F / 219, 255};  // of 8 bits
 constexpr GreyMap kAverages{0, 1.0F / 16, 65535.0F / 16};  // over up to 16 px
 constexpr GreyMap kWords{0, 1, 65535};
-constexpr std::size_t kBlock = std::size_t(1) << 14;  // px; a picture that does not fit is noticed early
+constexpr std::size_t kPackedAtOnce = std::size_t(1)
+                                      << 14;  // px; a picture that does not fit is noticed early
 
 }  // namespace
 
@@ -25,8 +26,8 @@ bool CompactImage::pack(const GrayF& image, const GreyMap& map) {
   const std::size_t pixels = image.px.size();
   std::vector<T> values;
   values.reserve(pixels);
-  for (std::size_t begin = 0; begin < pixels; begin += kBlock) {
-    const std::size_t n = std::min(kBlock, pixels - begin);
+  for (std::size_t begin = 0; begin < pixels; begin += kPackedAtOnce) {
+    const std::size_t n = std::min(kPackedAtOnce, pixels - begin);
     values.resize(begin + n);
     if (!unmap_greys(&image.px[begin], n, map, &values[begin])) return false;
   }

@@ -10,7 +10,7 @@
 namespace faba {
 
 /// A picture that is kept for later, exactly, in as few bytes as its values need: those of a video of 8 bits
-/// one byte per pixel; grey levels of up to 16 bits, and averages of whole ones over 4 or 16 px, two; all
+/// one byte per pixel; grey levels of up to 16 bits, and averages of integer ones over 4 or 16 px, two; all
 /// others four.
 class CompactImage {
  public:

@@ -12,9 +12,9 @@ using namespace faba;
 
 namespace {
 
-constexpr int kWidth = 347, kHeight = 101;  // more than one block, and none of whole vectors
+constexpr int kWidth = 347, kHeight = 101;  // more than one block, and no multiple of a vector
 
-GrayF whole_greys(int most) {
+GrayF integer_greys(int most) {
   std::mt19937 random(5);
   std::uniform_int_distribution<int> grey(0, most);
   GrayF image(kWidth, kHeight);
@@ -44,18 +44,18 @@ double bytes_per_pixel(const GrayF& image) {
 }  // namespace
 
 TEST_CASE("a compact image has the values of the image in the fewest bytes") {
-  CHECK(bytes_per_pixel(whole_greys(255)) == 1);
-  GrayF limited = whole_greys(255);  // as luma, also below black and above white
+  CHECK(bytes_per_pixel(integer_greys(255)) == 1);
+  GrayF limited = integer_greys(255);  // as luma, also below black and above white
   const GreyMap luma{16, 255.0F / 219, 255};
   for (float& v : limited.px) v = luma(v);
   CHECK(bytes_per_pixel(limited) == 1);
-  CHECK(bytes_per_pixel(whole_greys(256)) == 2);
-  CHECK(bytes_per_pixel(whole_greys(65535)) == 2);
-  CHECK(bytes_per_pixel(whole_greys(65536)) == 4);
+  CHECK(bytes_per_pixel(integer_greys(256)) == 2);
+  CHECK(bytes_per_pixel(integer_greys(65535)) == 2);
+  CHECK(bytes_per_pixel(integer_greys(65536)) == 4);
   for (const int side : {2, 3, 4}) {
     CAPTURE(side);
     GrayF average;
-    shrink(whole_greys(255), side, average);
+    shrink(integer_greys(255), side, average);
     CHECK(bytes_per_pixel(average) == (side == 3 ? 4 : 2));
   }
 }
@@ -66,7 +66,7 @@ TEST_CASE("a compact image has values that are no grey levels, too") {
        {-1.0F, -0.0F, 0.1F, 1e-40F, 3e9F, inf, -inf, std::numeric_limits<float>::quiet_NaN()})
     for (const std::size_t at : {std::size_t(0), std::size_t(kWidth * kHeight - 1)}) {
       CAPTURE(odd);
-      GrayF image = whole_greys(255);
+      GrayF image = integer_greys(255);
       image.px[at] = odd;
       CHECK(bytes_per_pixel(image) == 4);
     }
