@@ -37,7 +37,7 @@ void LinkCheck::take(std::uint64_t frame, double t_s, const std::vector<Spot>& s
 void LinkCheck::track(const Track& track) {
   for (const TrackPoint& p : track.points) {
     if (p.frame > last_frame_) break;
-    track_of_.emplace(key(p), track.number);
+    track_of_.emplace_back(key(p), track.number);
   }
 }
 
@@ -50,6 +50,11 @@ void LinkCheck::take_links() {
     }
 }
 
+std::optional<std::uint64_t> LinkCheck::track_of(Key spot) const {
+  const auto at = std::lower_bound(track_of_.begin(), track_of_.end(), std::pair{spot, std::uint64_t{0}});
+  return at == track_of_.end() || at->first != spot ? std::nullopt : std::optional(at->second);
+}
+
 LinkCheck::Tested LinkCheck::tested(std::uint64_t track) const {
   const auto at = tested_.find(track);
   return at == tested_.end() ? Tested{} : at->second;
@@ -58,17 +63,18 @@ LinkCheck::Tested LinkCheck::tested(std::uint64_t track) const {
 std::optional<double> LinkCheck::reproduced() {
   reduced_.finish();
   take_links();
+  std::sort(track_of_.begin(), track_of_.end());
   std::size_t compared = 0, same = 0;
   for (const auto& [from, to] : links_) {
-    const auto a = track_of_.find(from), b = track_of_.find(to);
+    const auto a = track_of(from), b = track_of(to);
     ++compared;
-    const bool is_same = a != track_of_.end() && b != track_of_.end() && a->second == b->second;
+    const bool is_same = a && b && *a == *b;
     if (is_same) ++same;
-    if (a != track_of_.end()) {
-      tested_[a->second].links += 1;
-      tested_[a->second].reproduced += is_same;
+    if (a) {
+      tested_[*a].links += 1;
+      tested_[*a].reproduced += is_same;
     }
-    if (b != track_of_.end() && !is_same) tested_[b->second].links += 1;
+    if (b && !is_same) tested_[*b].links += 1;
   }
   if (compared < kFewLinks) return {};
   return double(same) / double(compared);

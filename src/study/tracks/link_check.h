@@ -37,6 +37,7 @@ class LinkCheck {
   using Key = std::uint64_t;
   static Key key(const TrackPoint& p);
   void take_links();
+  std::optional<std::uint64_t> track_of(Key spot) const;
 
   Tracker reduced_;
   bool over_ = false;
@@ -44,7 +45,8 @@ class LinkCheck {
   std::uint64_t last_frame_ = 0;        ///< of the frames that were taken
   std::vector<std::uint64_t> omitted_;  ///< frame numbers, ascending
   std::size_t spots_ = 0;
-  std::unordered_map<Key, std::uint64_t> track_of_;  ///< number of the track of all frames
+  /// Spots with the number of their track of all frames, sorted by reproduced().
+  std::vector<std::pair<Key, std::uint64_t>> track_of_;
   std::unordered_map<std::uint64_t, Tested> tested_;
   std::vector<std::pair<Key, Key>> links_;  ///< across omitted frames
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/statistics.h"
 
@@ -248,12 +249,14 @@ Track StageDrift::relative(const Track& track) const {
   return out;
 }
 
-void DriftSurvey::take(const Track& track) {
+void DriftSurvey::take(Track track) {
   points_ += track.points.size();
-  if (points_ <= kMostDriftPoints)
-    tracks_.push_back(track);
-  else
+  if (points_ > kMostDriftPoints) {
     tracks_ = {};
+    return;
+  }
+  track.points.shrink_to_fit();
+  tracks_.push_back(std::move(track));
 }
 
 StageDrift DriftSurvey::result() const {

@@ -41,7 +41,7 @@ class DriftSurvey {
  public:
   /// `frame_s`: time between frames, s.
   explicit DriftSurvey(double frame_s) : frame_s_(frame_s) {}
-  void take(const Track& track);
+  void take(Track track);
   /// Undecided when there were more points than the memory holds.
   StageDrift result() const;
   /// The tracks; empty when there were more points than the memory holds.

@@ -108,15 +108,16 @@ class TrackPass {
   }
   // Each of those that take the tracks has them in their order.
   void emit_tracks(Pool& pool) {
-    const auto tracks = tracker_.finished();
+    std::vector<Track> tracks = tracker_.finished();
     if (tracks.empty()) return;
     const std::function<void(const Track&)> takers[] = {
-        [&](const Track& t) { listener_.track(t); },   [&](const Track& t) { statistics_.take(t); },
+        [&](const Track& t) { listener_.track(t); }, [&](const Track& t) { statistics_.take(t); },
         [&](const Track& t) { populations_.take(t); }, [&](const Track& t) { links_.track(t); },
-        [&](const Track& t) { scores_.take(t); },      [&](const Track& t) { drift_.take(t); }};
+        [&](const Track& t) { scores_.take(t); }};
     pool.run_uneven(std::size(takers), [&](std::size_t i) {
       for (const Track& t : tracks) takers[i](t);
     });
+    for (Track& t : tracks) drift_.take(std::move(t));  // it keeps them
   }
   // Speeds and mean-square displacements relative to the stage, when it moves.
   void remove_drift() {

@@ -63,11 +63,20 @@ void BackgroundSampler::take(const GrayF& frame) {
   if (kept_.size() >= most_kept(frame.px.size())) {
     std::size_t to = 0;
     for (std::size_t from = 0; from < kept_.size(); from += 2) std::swap(kept_[to++], kept_[from]);
-    kept_.erase(kept_.begin() + std::ptrdiff_t(to), kept_.end());
+    while (kept_.size() > to) {
+      dropped_.push_back(std::move(kept_.back()));
+      kept_.pop_back();
+    }
     stride_ *= 2;
     if ((seen_ - 1) % stride_ != 0) return;
   }
-  kept_.emplace_back(frame);
+  if (dropped_.empty()) {
+    kept_.emplace_back(frame);
+    return;
+  }
+  kept_.push_back(std::move(dropped_.back()));
+  dropped_.pop_back();
+  kept_.back().assign(frame);
 }
 
 Background BackgroundSampler::background() const {

@@ -56,6 +56,7 @@ class BackgroundSampler {
   std::size_t most_bytes_;
   std::uint64_t seen_ = 0, stride_ = 1;
   std::vector<CompactImage> kept_;
+  std::vector<CompactImage> dropped_;  ///< their memory is used for the next ones
 };
 
 /// Background of a single frame: Gaussian smoothing with `sd_px`, which should be several times the object

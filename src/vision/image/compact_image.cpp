@@ -13,7 +13,9 @@ constexpr std::size_t kPackedAtOnce = std::size_t(1)
 
 }  // namespace
 
-CompactImage::CompactImage(const GrayF& image) : width_(image.width), height_(image.height) {
+void CompactImage::assign(const GrayF& image) {
+  width_ = image.width;
+  height_ = image.height;
   for (const GreyMap& map : {kFull, kLimited})
     if (pack<std::uint8_t>(image, map)) return;
   for (const GreyMap& map : {kAverages, kWords})
@@ -24,14 +26,15 @@ CompactImage::CompactImage(const GrayF& image) : width_(image.width), height_(im
 template <class T>
 bool CompactImage::pack(const GrayF& image, const GreyMap& map) {
   const std::size_t pixels = image.px.size();
-  std::vector<T> values;
+  if (!std::holds_alternative<std::vector<T>>(values_)) values_ = std::vector<T>();
+  auto& values = std::get<std::vector<T>>(values_);
+  values.clear();
   values.reserve(pixels);
   for (std::size_t begin = 0; begin < pixels; begin += kPackedAtOnce) {
     const std::size_t n = std::min(kPackedAtOnce, pixels - begin);
     values.resize(begin + n);
     if (!unmap_greys(&image.px[begin], n, map, &values[begin])) return false;
   }
-  values_ = std::move(values);
   map_ = map;
   return true;
 }

@@ -14,7 +14,9 @@ namespace faba {
 /// others four.
 class CompactImage {
  public:
-  explicit CompactImage(const GrayF& image);
+  explicit CompactImage(const GrayF& image) { assign(image); }
+  /// Replaces the picture; the memory is used again.
+  void assign(const GrayF& image);
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -27,7 +29,7 @@ class CompactImage {
   template <class T>
   bool pack(const GrayF& image, const GreyMap& map);
 
-  int width_, height_;
+  int width_ = 0, height_ = 0;
   std::variant<std::vector<float>, std::vector<std::uint8_t>, std::vector<std::uint16_t>> values_;
   GreyMap map_;  ///< of the integers
 };

@@ -60,6 +60,18 @@ TEST_CASE("a compact image has the values of the image in the fewest bytes") {
   }
 }
 
+TEST_CASE("a compact image can be replaced by another one of any kind") {
+  CompactImage compact(integer_greys(255));
+  for (const int most : {65536, 255, 65535, 255}) {
+    const GrayF image = integer_greys(most);
+    compact.assign(image);
+    CHECK(compact.image().px == image.px);
+  }
+  compact.assign(GrayF(3, 2, 7));
+  CHECK(compact.image().width == 3);
+  CHECK(compact.image().px == GrayF(3, 2, 7).px);
+}
+
 TEST_CASE("a compact image has values that are no grey levels, too") {
   const float inf = std::numeric_limits<float>::infinity();
   for (const float odd :
