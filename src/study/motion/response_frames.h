@@ -22,7 +22,7 @@ class ResponsePictures {
     double t_s;
     CompactImage grey;
   };
-  /// None are kept if they need more than `most_bytes`.
+  /// None are kept if they would need more than `most_bytes` as floats.
   explicit ResponsePictures(const VideoPart& part, std::size_t most_bytes = 256u << 20)
       : part_(part), most_bytes_(most_bytes) {}
   /// For another part of the same video, without pictures.

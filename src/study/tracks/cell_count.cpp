@@ -51,8 +51,8 @@ FrameInspector CellCount::survey() {
 void CellCount::end_survey() {
   if (!surveys_frames()) return;
   Pool pool(threads_);
-  survey_ = surveyor_->result(8, true, pool,
-                              SurveyScope::input);  // the bits and the frame rate have no effect here
+  // The number of bits and the frame rate have no effect here.
+  survey_ = surveyor_->result(8, true, pool, SurveyScope::input);
   surveyor_.reset();
   if (survey_.temporal)
     detector_ =

@@ -8,8 +8,8 @@ namespace {
 constexpr GreyMap kFull, kLimited{16, 255.0F / 219, 255};  // of 8 bits
 constexpr GreyMap kAverages{0, 1.0F / 16, 65535.0F / 16};  // over up to 16 px
 constexpr GreyMap kWords{0, 1, 65535};
-constexpr std::size_t kPackedAtOnce = std::size_t(1)
-                                      << 14;  // px; a picture that does not fit is noticed early
+// px: a picture that does not fit is noticed early.
+constexpr std::size_t kPackedAtOnce = std::size_t(1) << 14;
 
 }  // namespace
 

@@ -9,9 +9,9 @@
 
 namespace faba {
 
-/// A picture that is kept for later, exactly, in as few bytes as its values need: those of a video of 8 bits
-/// one byte per pixel; grey levels of up to 16 bits, and averages of integer ones over 4 or 16 px, two; all
-/// others four.
+/// A picture that is kept for later, exactly, in as few bytes as its values need: those of grey or
+/// YUV video of 8 bits one byte per pixel; grey levels of up to 16 bits, and averages of integer ones over 4
+/// or 16 px, two; all others four.
 class CompactImage {
  public:
   explicit CompactImage(const GrayF& image) { assign(image); }

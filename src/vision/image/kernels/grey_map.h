@@ -4,7 +4,8 @@
 
 namespace faba {
 
-/// Grey levels of stored integers. Luma of limited range has a black of 16 and reaches white at 235.
+/// Linear map from a stored integer to a grey level, clipped to [0, white]. Luma of 8 bits and limited range
+/// is black at 16 and white at 235 (ITU-R BT.601).
 struct GreyMap {
   float black = 0, gain = 1, white = 255;
   float operator()(float stored) const {
