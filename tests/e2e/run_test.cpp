@@ -229,7 +229,7 @@ TEST_CASE("setpoints_reached counts the setpoints that the swarm reached, setpoi
   CHECK(late.json()["setpoints_reached"] == 0);
 }
 
-TEST_CASE("kill -9 at any time: resume gives the same hash and the same series") {
+TEST_CASE("kill -9 at any time: resume gives the same hash, series and video") {
   const TestFolder f;
   write_file(f.path / "s.toml",
              "duration = '75 s'\nexclusion = { order = 'none' }\n[[swarm]]\ncount = 4000\nmodel = 'basic'\n"
@@ -250,5 +250,6 @@ TEST_CASE("kill -9 at any time: resume gives the same hash and the same series")
     CHECK(nlohmann::json::parse(read_file(f.path / dir / "manifest.json"))["state_hash"] ==
           uninterrupted["state_hash"]);
     CHECK(read_file(f.path / dir / "series.csv") == read_file(f.path / "uninterrupted/series.csv"));
+    CHECK(read_file(f.path / dir / "video.mp4") == read_file(f.path / "uninterrupted/video.mp4"));
   }
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/chrono.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/recording/checkpoint.h"
@@ -65,6 +66,10 @@ std::vector<Sink*> Recording::sinks() const {
 void Recording::checkpoint(Archive& a) {
   for (const auto& s : sinks_) s->checkpoint(a);
   write_checkpoint(dir() / kCheckpoint, scenario_hash_, a);
+}
+
+bool Recording::seamless() const {
+  return std::ranges::all_of(sinks_, [](const auto& s) { return s->seamless(); });
 }
 
 void Recording::finish(const Manifest& m, bool keep) {

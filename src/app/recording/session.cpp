@@ -103,7 +103,7 @@ bool Session::run() {
     const bool due =
         std::chrono::duration<double>(Clock::now() - last).count() >= scenario_.record.checkpoint;
     // Also at the end, so that a crash while files are completed loses nothing. Always before Rig::safe().
-    if (stop || due || loop.next == total) {
+    if (stop || (due && recording_.seamless()) || loop.next == total) {
       checkpoint();
       last = Clock::now();
     }

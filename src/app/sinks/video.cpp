@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 
 #include "app/sinks/sinks.h"
@@ -9,6 +10,21 @@ namespace faba {
 namespace {
 
 constexpr std::size_t kWaitingBytes = 64u << 20;  // of the pictures that wait for the encoder
+
+/// Frames of a video between two restarts of the encoder. Its bytes do not depend on the times of
+/// checkpoints, which also restart the encoder, because they wait for the end of such a group: at most a
+/// second of video or kFew frames, and fewer if the simulation takes more than some seconds for them.
+std::uint64_t group_frames(const SinkContext& c) {
+  constexpr double kFew = 30;
+  constexpr double kMostSteps = 4e8;  // of single cells
+  double frames = std::max(std::round(c.frame_rate / c.record.video_every), kFew);
+  if (c.truth) {
+    const double steps_per_frame = c.record.video_every / (c.frame_rate * c.truth->parts().dt);
+    const auto cells = double(std::max<std::size_t>(c.truth->state().agents.size(), 1));
+    frames = std::min(frames, kMostSteps / (cells * steps_per_frame));
+  }
+  return std::uint64_t(std::max(frames, 1.0));
+}
 
 /// Pictures that have been encoded. A large picture is used again: to get new memory from the system takes
 /// as long as to draw a million cells.
@@ -39,6 +55,7 @@ class Video final : public RunSink {
         lossless_(lossless),
         part_(c.dir / (lossless ? "video.avi.part" : "video.mp4.part")),
         final_(c.dir / (lossless ? "video.avi" : "video.mp4")),
+        group_(lossless ? 1 : group_frames(c)),
         encoding_(std::clamp<std::size_t>(kWaitingBytes / picture_bytes(c), 1, 16)) {
     // The process was killed after this file was completed and before the run was: the file is complete.
     if (keep > 0 && !std::filesystem::exists(part_) && std::filesystem::exists(final_)) return;
@@ -51,19 +68,21 @@ class Video final : public RunSink {
     if (recorded % std::uint64_t(c_.record.video_every)) return;
     if (!writer_) return;
     if (c_.jitter && !c_.frames->planned_time(t.index)) times_.push_back(c_.frames->time_of(t));
-    const bool kept = c_.kept && c_.kept->keeps(recorded / std::uint64_t(c_.record.video_every));
-    const double t_s = kept ? c_.frames->time_of(t) : 0;
+    const std::uint64_t number = recorded / std::uint64_t(c_.record.video_every);
+    next_ = number + 1;
+    const bool kept = c_.kept && c_.kept->keeps(number);
+    const Place place{number, kept, kept ? c_.frames->time_of(t) : 0};
     if (c_.draw) {
       RgbImage drawn = spare_.take();
       c_.draw(t, drawn);
-      encoding_.add([this, kept, t_s, picture = std::move(drawn)]() mutable {
-        write(picture, kept, t_s);
+      encoding_.add([this, place, picture = std::move(drawn)]() mutable {
+        write(picture, place);
         spare_.give(std::move(picture));
       });
     } else if (lossless_ && c_.frames->bits() == 16) {
       encoding_.add([this, picture = c_.frames->deep_picture()] { writer_->write(picture); });
     } else {
-      encoding_.add([this, kept, t_s, picture = c_.frames->picture(t)] { write(*picture, kept, t_s); });
+      encoding_.add([this, place, picture = c_.frames->picture(t)] { write(*picture, place); });
     }
   }
 
@@ -73,6 +92,8 @@ class Video final : public RunSink {
     a& bytes;
     if (c_.kept) a&* c_.kept;
   }
+
+  bool seamless() const override { return next_ % group_ == 0; }
 
   void finish(bool keep) override {
     if (!writer_) return;
@@ -93,15 +114,22 @@ class Video final : public RunSink {
   }
 
  private:
+  struct Place {
+    std::uint64_t number;  ///< of the frame in the video
+    bool kept;             ///< for the report
+    double t_s;            ///< of a frame that is kept
+  };
+
   // Time of a frame of a bench; extrapolated after the last one.
   double taken_at(std::size_t frame) const {
     if (frame < times_.size()) return times_[frame];
     return times_.back() + double(frame - times_.size() + 1) * c_.record.video_every / c_.frame_rate;
   }
   template <class Pixel>
-  void write(const Image<Pixel>& picture, bool kept, double t_s) {
+  void write(const Image<Pixel>& picture, const Place& place) {
+    if (!lossless_ && place.number % group_ == 0) writer_->restart();
     writer_->write(picture);
-    if (kept) c_.kept->add({small_picture(picture), t_s});
+    if (place.kept) c_.kept->add({small_picture(picture), place.t_s});
   }
   static std::size_t picture_bytes(const SinkContext& c) {
     return sizeof(Rgb) * std::size_t(c.frame.width) * std::size_t(c.frame.height);
@@ -114,6 +142,8 @@ class Video final : public RunSink {
   SinkContext c_;
   bool lossless_;
   std::filesystem::path part_, final_;
+  std::uint64_t group_;
+  std::uint64_t next_ = 0;  ///< number of the next frame; after a resume 0 before the first one
   std::optional<VideoWriter> writer_;
   SparePictures spare_;
   std::vector<double> times_;  ///< s, times of the frames of a bench, which are not known in advance

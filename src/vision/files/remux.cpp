@@ -15,6 +15,8 @@
 namespace faba {
 namespace {
 
+constexpr std::uintmax_t kLargeFile = 32u << 20;  // bytes
+
 using Packet = std::unique_ptr<AVPacket, libav::Free>;
 using Input = std::unique_ptr<AVFormatContext, libav::Free>;
 struct FreeOutput {
@@ -139,7 +141,10 @@ void Remuxer::open_output(const std::filesystem::path& temporary) {
   result = FABA_AV(avio_open)(&raw->pb, file_url(temporary).c_str(), AVIO_FLAG_WRITE);
   if (result < 0) fail(to_, "cannot be written", result);
   AVDictionary* options = nullptr;
-  if (mp4_) FABA_AV(av_dict_set)(&options, "movflags", "+faststart", 0);
+  // The index at the start of the file lets a browser play it while it loads. To move it there, a large file
+  // would be written twice.
+  const bool small = std::filesystem::file_size(part_) < kLargeFile;
+  if (mp4_ && small) FABA_AV(av_dict_set)(&options, "movflags", "+faststart", 0);
   result = FABA_AV(avformat_write_header)(raw, &options);
   FABA_AV(av_dict_free)(&options);
   if (result < 0) fail(to_, "cannot be written", result);

@@ -62,9 +62,11 @@ void VideoWriter::write(const RgbImage& frame) { append(frame); }
 void VideoWriter::write(const Gray8& frame) { append(frame); }
 void VideoWriter::write(const Image<std::uint16_t>& frame) { append(frame); }
 
+void VideoWriter::restart() { impl_->restart(); }
+
 std::uint64_t VideoWriter::sync() {
   impl_->file.sync();
-  impl_->restart();
+  restart();
   return impl_->file.size();
 }
 

@@ -41,8 +41,11 @@ class VideoWriter {
   void write(const Gray8& frame);                 ///< For VideoPixels::grey8.
   void write(const Image<std::uint16_t>& frame);  ///< For VideoPixels::grey16.
 
-  /// Syncs all frames to disk and returns the length in bytes at which to resume. The next frame is a key
-  /// frame. Throws Error(Errc::internal, part).
+  /// The next frame is encoded as by a new writer: a key frame that does not depend on the frames before it.
+  void restart();
+
+  /// Syncs all frames to disk and returns the length in bytes at which to resume. Calls
+  /// restart(). Throws Error(Errc::internal, part).
   std::uint64_t sync();
 
   /// Writes `final_path` (through `final_path` + ".tmp"), replacing an existing file, and removes `part`

@@ -4,7 +4,9 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "app/recording/checkpoint.h"
 #include "core/h5/h5.h"
@@ -274,6 +276,27 @@ count = 60
   }
   CHECK(k == 24);
   CHECK(std::fabs(truth - 23 / 20.0) > 1e-4);
+}
+
+TEST_CASE("the bytes of the video do not depend on the times of checkpoints") {
+  const TestFolder f;
+  Scenario scene = scenario_from(kScene);
+  Session undisturbed = Session::begin(scene, 7, options(f.path / "undisturbed"));
+  REQUIRE(undisturbed.run());
+  scene.record.checkpoint = 0.1;
+  for (const int pause_ms : {3, 8}) {
+    const auto dir = f.path / ("pause-" + std::to_string(pause_ms));
+    RunOptions o = options(dir);
+    bool saved = false;
+    o.progress = [&](std::uint64_t done, std::uint64_t total) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(pause_ms));
+      saved |= done < total && std::filesystem::exists(dir / "checkpoint");
+    };
+    Session saving = Session::begin(scene, 7, o);
+    REQUIRE(saving.run());
+    CHECK(saved);
+    CHECK(read_file(dir / "video.mp4") == read_file(f.path / "undisturbed/video.mp4"));
+  }
 }
 
 TEST_CASE("record.as_seen with sensor = positions changes only the video, not the run") {

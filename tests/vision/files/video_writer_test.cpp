@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/file.h"
 #include "tests/vision/media.h"
 #include "vision/files/video_reader.h"
 
@@ -117,6 +118,43 @@ TEST_CASE("lossless_avi returns every pixel, at odd sizes and in colour") {
       CHECK(wrong == 0);
     }
   }
+}
+
+TEST_CASE("mp4: after restart() the bytes are those of a new writer") {
+  const media::ScratchFolder folder;
+  const auto bytes_after = [&](const char* name, int first, int restart_at) {
+    VideoWriter writer(folder / name, VideoFormat::mp4, kWidth, kHeight, 15);
+    record(writer, first, 10);
+    const auto before = std::filesystem::file_size(folder / name);
+    if (restart_at == 10) writer.restart();
+    record(writer, 10, 14);
+    return read_file(folder / name).substr(first == 10 ? 0 : before);
+  };
+  const std::string alone = bytes_after("new.part", 10, 0);
+  CHECK(bytes_after("restarted.part", 0, 10) == alone);
+  CHECK(bytes_after("continued.part", 0, 0) != alone);
+}
+
+TEST_CASE("mp4: a large file, whose index is not moved to the start, has all frames") {
+  const media::ScratchFolder folder;
+  constexpr int kSide = 2048, kCount = 12;
+  RgbImage noise(kSide, kSide);
+  std::uint32_t state = 1;
+  for (Rgb& p : noise.px) {
+    state = state * 1664525u + 1013904223u;
+    const auto grey = std::uint8_t(state >> 24);
+    p = {grey, grey, grey};
+  }
+  VideoWriter writer(folder / "v.part", VideoFormat::mp4, kSide, kSide, 1);
+  for (int frame = 0; frame < kCount; ++frame) writer.write(noise);
+  writer.finish(folder / "v.mp4");
+  REQUIRE(std::filesystem::file_size(folder / "v.mp4") > 32u << 20);
+  const Frames frames = read_all(folder / "v.mp4");
+  REQUIRE(frames.grey.size() == kCount);
+  CHECK(frames.t_s.back() == doctest::Approx(kCount - 1));
+  // Two independent pictures of uniform noise have 20 lg(sqrt(6)) = 7.8 dB; here half of their difference at
+  // most.
+  CHECK(psnr(frames.grey.back(), noise) > 13.8);
 }
 
 TEST_CASE("mp4 preserves frames, times and grey values") {

@@ -26,7 +26,8 @@ Schema<Record> Record::schema() {
            {.unit = "s",
             .min = 0.1,
             .max = 1e6,
-            .doc = "Wall time between checkpoints; a crash loses at most this time"})
+            .doc = "Wall time between checkpoints; with video, each waits for up to 30 frames of it, or a "
+                   "second"})
       .add("from", &Record::from,
            {.unit = "s",
             .min = 0,
