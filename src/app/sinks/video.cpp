@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <mutex>
 
 #include "app/sinks/sinks.h"
@@ -17,13 +18,12 @@ constexpr std::size_t kWaitingBytes = 64u << 20;  // of the pictures that wait f
 std::uint64_t group_frames(const SinkContext& c) {
   constexpr double kFew = 30;
   constexpr double kMostSteps = 4e8;  // of single cells
-  double frames = std::max(std::round(c.frame_rate / c.record.video_every), kFew);
-  if (c.truth) {
-    const double steps_per_frame = c.record.video_every / (c.frame_rate * c.truth->parts().dt);
-    const auto cells = double(std::max<std::size_t>(c.truth->state().agents.size(), 1));
-    frames = std::min(frames, kMostSteps / (cells * steps_per_frame));
-  }
-  return std::uint64_t(std::max(frames, 1.0));
+  if (!c.truth) return std::numeric_limits<std::uint64_t>::max();  // a bench has no checkpoints
+  const double second = std::round(c.frame_rate / c.record.video_every);
+  const double steps_per_frame = c.record.video_every / (c.frame_rate * c.truth->parts().dt);
+  const auto cells = double(std::max<std::size_t>(c.truth->state().agents.size(), 1));
+  const double computed = kMostSteps / (cells * steps_per_frame);
+  return std::uint64_t(std::clamp(computed, 1.0, std::max(second, kFew)));
 }
 
 /// Pictures that have been encoded. A large picture is used again: to get new memory from the system takes
