@@ -17,7 +17,7 @@ constexpr std::size_t kWaitingBytes = 64u << 20;  // of the pictures that wait f
 /// second of video or kFew frames, and fewer if the simulation takes more than some seconds for them.
 std::uint64_t group_frames(const SinkContext& c) {
   constexpr double kFew = 30;
-  constexpr double kMostSteps = 4e8;  // of single cells
+  constexpr double kMostSteps = 4e8;                               // of single cells
   if (!c.truth) return std::numeric_limits<std::uint64_t>::max();  // a bench has no checkpoints
   const double second = std::round(c.frame_rate / c.record.video_every);
   const double steps_per_frame = c.record.video_every / (c.frame_rate * c.truth->parts().dt);
