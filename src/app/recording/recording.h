@@ -23,7 +23,7 @@ class Recording {
   std::vector<Sink*> sinks() const;
   /// Syncs all files and writes the checkpoint: the state of the run in `a`, then the state of the sinks.
   void checkpoint(Archive& a);
-  /// Whether a checkpoint in this cycle leaves the bytes of all files as they are without one.
+  /// Whether a checkpoint in this cycle leaves the content of all files as it is without one.
   bool seamless() const;
   /// Completes all files and writes manifest.json. `keep`: keep the files that are needed to resume.
   void finish(const Manifest& m, bool keep);

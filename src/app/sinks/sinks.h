@@ -19,7 +19,7 @@ class RunSink : public Sink {
  public:
   /// Syncs its files and writes their state to a checkpoint.
   virtual void checkpoint(Archive& a) = 0;
-  /// Whether a checkpoint in this cycle leaves the bytes of its files as they are without one.
+  /// Whether a checkpoint in this cycle leaves the content of its files as it is without one.
   virtual bool seamless() const { return true; }
   /// Completes its files. `keep`: also keep the files that are needed to resume.
   virtual void finish(bool keep) = 0;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <mutex>
 
@@ -12,18 +11,22 @@ namespace {
 
 constexpr std::size_t kWaitingBytes = 64u << 20;  // of the pictures that wait for the encoder
 
-/// Frames of a video between two restarts of the encoder. Its bytes do not depend on the times of
-/// checkpoints, which also restart the encoder, because they wait for the end of such a group: at most a
-/// second of video or kFew frames, and fewer if the simulation takes more than some seconds for them.
+/// Frames of a video between two restarts of the encoder: seconds of video, because a second begins with a
+/// key frame in any case, with at least kFew frames; fewer if the simulation takes more than some seconds for
+/// them. A checkpoint restarts the encoder, too. It waits for the end of a group, so that its time has no
+/// effect.
 std::uint64_t group_frames(const SinkContext& c) {
-  constexpr double kFew = 30;
-  constexpr double kMostSteps = 4e8;                               // of single cells
+  constexpr std::uint64_t kFew = 30;
+  // Steps of single cells.
+  constexpr double kMostSteps = 4e8;
   if (!c.truth) return std::numeric_limits<std::uint64_t>::max();  // a bench has no checkpoints
-  const double second = std::round(c.frame_rate / c.record.video_every);
+  const FrameRate rate = frame_rate_near(c.frame_rate / c.record.video_every);
+  const auto second = std::uint64_t(std::max(rate.numerator / rate.denominator, 1));
   const double steps_per_frame = c.record.video_every / (c.frame_rate * c.truth->parts().dt);
   const auto cells = double(std::max<std::size_t>(c.truth->state().agents.size(), 1));
-  const double computed = kMostSteps / (cells * steps_per_frame);
-  return std::uint64_t(std::clamp(computed, 1.0, std::max(second, kFew)));
+  const double computed = std::min(kMostSteps / (cells * steps_per_frame), double(kFew + second - 1));
+  const auto frames = std::uint64_t(std::max(computed, 1.0));
+  return frames < second ? frames : frames / second * second;
 }
 
 /// Pictures that have been encoded. A large picture is used again: to get new memory from the system takes

@@ -122,17 +122,31 @@ TEST_CASE("lossless_avi returns every pixel, at odd sizes and in colour") {
 
 TEST_CASE("mp4: after restart() the bytes are those of a new writer") {
   const media::ScratchFolder folder;
-  const auto bytes_after = [&](const char* name, int first, int restart_at) {
+  const auto bytes_after = [&](const char* name, int first, bool restart) {
     VideoWriter writer(folder / name, VideoFormat::mp4, kWidth, kHeight, 15);
     record(writer, first, 10);
     const auto before = std::filesystem::file_size(folder / name);
-    if (restart_at == 10) writer.restart();
+    if (restart) writer.restart();
     record(writer, 10, 14);
-    return read_file(folder / name).substr(first == 10 ? 0 : before);
+    return read_file(folder / name).substr(before);
   };
-  const std::string alone = bytes_after("new.part", 10, 0);
-  CHECK(bytes_after("restarted.part", 0, 10) == alone);
-  CHECK(bytes_after("continued.part", 0, 0) != alone);
+  const std::string alone = bytes_after("new.part", 10, false);
+  CHECK(bytes_after("restarted.part", 0, true) == alone);
+  CHECK(bytes_after("continued.part", 0, false) != alone);
+}
+
+TEST_CASE("mp4: a second has at least one key frame, which repeats the parameters of the video") {
+  const media::ScratchFolder folder;
+  const std::vector<std::pair<double, int>> key_frames_of_16{{0.5, 16}, {1.5, 16}, {15, 2}, {30, 1}};
+  for (const auto& [rate, expected] : key_frames_of_16) {
+    VideoWriter writer(folder / "v.part", VideoFormat::mp4, kWidth, kHeight, rate);
+    record(writer, 0, 16);
+    const std::string bytes = read_file(folder / "v.part");
+    int parameters = 0;
+    const std::string start("\0\0\1\x67", 4);
+    for (auto at = bytes.find(start); at != bytes.npos; at = bytes.find(start, at + 1)) ++parameters;
+    CHECK_MESSAGE(parameters == expected, rate);
+  }
 }
 
 TEST_CASE("mp4: a large file, whose index is not moved to the start, has all frames") {

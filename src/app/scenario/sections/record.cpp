@@ -26,8 +26,7 @@ Schema<Record> Record::schema() {
            {.unit = "s",
             .min = 0.1,
             .max = 1e6,
-            .doc = "Wall time between checkpoints; with video, each waits for up to 30 frames of it, or a "
-                   "second"})
+            .doc = "Wall time between checkpoints, which wait for the end of a group of frames of video.mp4"})
       .add("from", &Record::from,
            {.unit = "s",
             .min = 0,

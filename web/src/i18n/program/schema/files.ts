@@ -34,7 +34,7 @@ export const files: Record<string, string> = {
   'video.avi: lossless video, for Fiji': 'video.avi: vídeo sem perdas, para o Fiji',
   'Videos show what the camera sees, rendered with [microscope], not a drawing': 'Os vídeos mostram o que a câmera vê, renderizado com [microscope], não um desenho',
   'flow.h5: optical flow between camera frames, computed with [flow]': 'flow.h5: fluxo óptico entre quadros da câmera, calculado com [flow]',
-  'Wall time between checkpoints; with video, each waits for up to 30 frames of it, or a second': 'Tempo real entre pontos de retomada; com vídeo, cada um espera até 30 quadros dele, ou um segundo',
+  'Wall time between checkpoints, which wait for the end of a group of frames of video.mp4': 'Tempo real entre pontos de retomada, que esperam o fim de um grupo de quadros de video.mp4',
   'Simulated time of the first recorded frame: the run starts at 0 s, and its files contain the part from here on': 'Tempo simulado do primeiro quadro gravado: a execução começa em 0 s, e seus arquivos contêm a parte a partir daqui',
   'Simulated time after the last recorded frame; default: the end of the run, which does not end here': 'Tempo simulado após o último quadro gravado; padrão: o fim da execução, que não termina aqui',
   'A field library for the coil system, written by `faba field library`': 'Uma biblioteca de campos do sistema de bobinas, escrita por `faba field library`',
