@@ -17,7 +17,7 @@ RgbImage reduced(const Image<Pixel>& picture) {
   const std::size_t values = std::size_t(picture.width) * kChannels;
   std::vector<std::uint32_t> sums(values);  // over n rows
   for (int r = 0; r < out.height; ++r) {
-    std::ranges::fill(sums, 0u);
+    std::fill(sums.begin(), sums.end(), 0u);
     for (int i = 0; i < n; ++i) {
       const auto* row = reinterpret_cast<const std::uint8_t*>(picture.px.data()) +
                         values * (std::size_t(r) * std::size_t(n) + std::size_t(i));
