@@ -13,6 +13,8 @@
 namespace faba {
 namespace {
 
+constexpr std::uint64_t kFlushedBytes = 4u << 20;  // fewer are on the disk at once in any case
+
 std::string advice(int error_number) {
   std::string reason = std::generic_category().message(error_number);
   if (error_number == ENOSPC || error_number == EDQUOT)
@@ -88,7 +90,7 @@ std::string read_file(const std::filesystem::path& file) {
 
 OutputFile::OutputFile(const std::filesystem::path& path, std::uint64_t keep_bytes,
                        const std::filesystem::path& shown)
-    : path_(path), shown_(shown.empty() ? path : shown), size_(keep_bytes) {
+    : path_(path), shown_(shown.empty() ? path : shown), size_(keep_bytes), flushing_(keep_bytes) {
   const int flags = keep_bytes == 0 ? O_WRONLY | O_CREAT | O_TRUNC : O_WRONLY;
   descriptor_ = ::open(path.c_str(), flags | O_CLOEXEC, 0666);
   if (descriptor_ < 0 && keep_bytes > 0 && errno == ENOENT)
@@ -135,6 +137,9 @@ void OutputFile::append(std::span<const std::uint8_t> piece) {
     }
   }
   size_ += piece.size();
+  if (size_ < flushing_ + kFlushedBytes) return;
+  start_flush(descriptor_);
+  flushing_ = size_;
 }
 
 void OutputFile::replace(std::uint64_t at, std::span<const std::uint8_t> piece) {
@@ -162,6 +167,13 @@ void OutputFile::close() {
   const int descriptor = descriptor_;
   descriptor_ = -1;
   if (::close(descriptor) != 0 && errno != EINTR) fail("cannot be closed", errno);
+}
+
+void start_flush([[maybe_unused]] int descriptor) {
+#ifdef __linux__
+  // What cannot be written is reported by fsync().
+  ::sync_file_range(descriptor, 0, 0, SYNC_FILE_RANGE_WRITE);
+#endif
 }
 
 void flush_descriptor(int descriptor, const std::filesystem::path& shown) {

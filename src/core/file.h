@@ -52,8 +52,13 @@ class OutputFile {
   std::filesystem::path path_, shown_;
   int descriptor_ = -1;
   std::uint64_t size_ = 0;
-  bool synced_ = false;  ///< nothing was written since the last sync()
+  std::uint64_t flushing_ = 0;  ///< bytes that the system was asked to write to the disk
+  bool synced_ = false;         ///< nothing was written since the last sync()
 };
+
+/// Begins to write to the disk what was written to an open file, without waiting for it: flush_descriptor()
+/// waits for less then. No effect on systems without such a call.
+void start_flush(int descriptor);
 
 /// Returns when everything written to an open file is on the disk. Throws Error(Errc::internal, shown).
 void flush_descriptor(int descriptor, const std::filesystem::path& shown);

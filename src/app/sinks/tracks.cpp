@@ -64,10 +64,12 @@ class Tracks final : public RunSink {
       row_[2 * i + 1] = float(p.y);
     }
     append(t.index, c_.frames->time_of(t));
-    if (!responding_) return;
-    flags_.resize(x.size());
-    for (std::size_t i = 0; i < x.size(); ++i) flags_[i] = response[i] != 0.0f;
-    responding_->append<std::uint8_t>(flags_);
+    if (responding_) {
+      flags_.resize(x.size());
+      for (std::size_t i = 0; i < x.size(); ++i) flags_[i] = response[i] != 0.0f;
+      responding_->append<std::uint8_t>(flags_);
+    }
+    file_.start_sync();
   }
 
   void checkpoint(Archive& a) override {

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/h5/chunk_rows.h"
+#include "core/h5/handle.h"
 
 namespace faba {
 namespace {
@@ -47,26 +48,6 @@ std::string reason() {
   }
   return text.empty() ? "unknown HDF5 error" : text;
 }
-
-/// A handle closed by the function that belongs to it.
-class Handle {
- public:
-  Handle() = default;
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  Handle(Handle&& o) noexcept : id_(std::exchange(o.id_, -1)), close_(o.close_) {}
-  Handle& operator=(Handle&& o) noexcept {
-    std::swap(id_, o.id_);
-    std::swap(close_, o.close_);
-    return *this;
-  }
-  ~Handle() { release(); }
-  bool release() { return id_ < 0 || close_(std::exchange(id_, -1)) >= 0; }
-  operator hid_t() const { return id_; }  // NOLINT: used as the id in calls of the C library
-
- private:
-  hid_t id_ = -1;
-  herr_t (*close_)(hid_t) = nullptr;
-};
 
 // Turns off the error messages that HDF5 prints itself; the setting is per thread.
 void quiet() {
@@ -145,6 +126,7 @@ struct H5File::Impl {
   std::filesystem::path path;
   unsigned threads = 1;                                ///< that encode
   std::vector<std::shared_ptr<H5Table::Impl>> tables;  ///< that are being written
+  int descriptor() const;                              ///< of the open file
   [[noreturn]] void fail(Errc code, const char* doing) const {
     throw Error(code, path.string(), fmt::format("cannot {}: {}", doing, reason()));
   }
@@ -359,13 +341,19 @@ void H5File::begin_writing() {
   if (H5Fstart_swmr_write(impl_->file) < 0) impl_->fail(Errc::internal, "start writing");
 }
 
+int H5File::Impl::descriptor() const {
+  void* descriptor = nullptr;
+  if (H5Fget_vfd_handle(file, H5P_DEFAULT, &descriptor) < 0) fail(Errc::internal, "write");
+  return *static_cast<const int*>(descriptor);
+}
+
+void H5File::start_sync() { start_flush(impl_->descriptor()); }
+
 void H5File::sync() {
   quiet();
   for (const auto& t : impl_->tables) t->writing->flush();
   if (H5Fflush(impl_->file, H5F_SCOPE_GLOBAL) < 0) impl_->fail(Errc::internal, "write");
-  void* handle = nullptr;  // pointer to the file descriptor of HDF5
-  if (H5Fget_vfd_handle(impl_->file, H5P_DEFAULT, &handle) < 0) impl_->fail(Errc::internal, "write");
-  flush_descriptor(*static_cast<const int*>(handle), impl_->path);
+  flush_descriptor(impl_->descriptor(), impl_->path);
 }
 
 void H5File::rename_complete(const std::filesystem::path& to) {

@@ -68,6 +68,7 @@ class H5File {
 
   void begin_writing();  ///< from here on other processes can read, and a crash leaves a readable file
   void sync();           ///< writes everything appended so far to the disk
+  void start_sync();     ///< begins to write complete rows of chunks to the disk; sync() takes less time then
   /// Syncs and renames the file to its final name; writing may continue.
   void rename_complete(const std::filesystem::path& to);
   void close();  ///< throws on errors, which the destructor cannot
