@@ -13,7 +13,7 @@
 namespace faba {
 namespace {
 
-constexpr std::uint64_t kFlushedBytes = 4u << 20;  // fewer are on the disk at once in any case
+constexpr std::uint64_t kFlushedBytes = 4u << 20;  // sync() waits for fewer only for some milliseconds
 
 std::string advice(int error_number) {
   std::string reason = std::generic_category().message(error_number);

@@ -342,12 +342,15 @@ void H5File::begin_writing() {
 }
 
 int H5File::Impl::descriptor() const {
-  void* descriptor = nullptr;
-  if (H5Fget_vfd_handle(file, H5P_DEFAULT, &descriptor) < 0) fail(Errc::internal, "write");
-  return *static_cast<const int*>(descriptor);
+  void* handle = nullptr;  // pointer to the file descriptor of HDF5
+  if (H5Fget_vfd_handle(file, H5P_DEFAULT, &handle) < 0) fail(Errc::internal, "write");
+  return *static_cast<const int*>(handle);
 }
 
-void H5File::start_sync() { start_flush(impl_->descriptor()); }
+void H5File::start_sync() {
+  quiet();
+  start_flush(impl_->descriptor());
+}
 
 void H5File::sync() {
   quiet();
